@@ -1,0 +1,12 @@
+/// @file Everything of the public interface.
+#pragma once
+
+#include "cairn/material.h"
+#include "cairn/recording.h"
+#include "cairn/scene.h"
+#include "cairn/settings.h"
+#include "cairn/shape.h"
+#include "cairn/statistics.h"
+#include "cairn/types.h"
+#include "cairn/version.h"
+#include "cairn/world.h"

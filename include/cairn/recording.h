@@ -1,0 +1,81 @@
+/// @file Recordings: HDF5 files with one frame per simulation step, and their exports.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cairn/scene.h"
+
+namespace cairn {
+
+/// The state of all bodies at one moment; arrays have one entry per body of the scene file.
+struct Frame {
+    double time = 0;                     ///< [s]
+    std::vector<Vec3> position;          ///< [m, W]; NaN once the body was removed
+    std::vector<Quat> orientation;       ///< B to W
+    std::vector<Vec3> linear_velocity;   ///< [m/s, W]
+    std::vector<Vec3> angular_velocity;  ///< [rad/s, W]
+    std::vector<std::uint8_t> asleep;    ///< 1 = asleep
+    Statistics statistics;               ///< of the simulation step that led here
+    double kinetic_energy = 0;           ///< [J]
+    double potential_energy = 0;         ///< [J]
+};
+
+/// Takes the present state of a run. @param statistics of the simulation step that led here
+Frame captureFrame(const SceneRun& run, const Statistics& statistics);
+
+/// Writes a recording; what was appended can be read while it is written and after a crash.
+class RecordingWriter {
+  public:
+    /// @throws IoError if the file cannot be written
+    RecordingWriter(const std::filesystem::path& file, const Scene& scene, const Settings& settings);
+    ~RecordingWriter();
+    RecordingWriter(const RecordingWriter&) = delete;
+    RecordingWriter& operator=(const RecordingWriter&) = delete;
+
+    /// @throws IoError, for example when the disk is full; frames before it stay readable
+    void append(const Frame& frame);
+    /// Writes what is left and closes. @throws IoError
+    void close();
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// What stands in a recording apart from its frames.
+struct RecordingInfo {
+    Scene scene;
+    std::vector<std::pair<std::string, std::string>> settings;  ///< field and value as text
+    std::string version;                                        ///< of Cairn
+    std::string machine;                                        ///< processor and operating system
+    std::size_t frames = 0;
+    std::size_t bodies = 0;
+};
+
+/// Reads a recording.
+class RecordingReader {
+  public:
+    /// @throws IoError if it is missing, truncated or not a recording; the text says which
+    explicit RecordingReader(const std::filesystem::path& file);
+    ~RecordingReader();
+    RecordingReader(RecordingReader&&) noexcept;
+
+    const RecordingInfo& info() const;
+    /// @param index 0 (the initial state) to info().frames − 1 @throws InputError, IoError
+    Frame frame(std::size_t index) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// One row per frame and body: frame,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,asleep. @throws IoError
+void exportCsv(const RecordingReader& recording, const std::filesystem::path& file);
+/// A ParaView time series: OUT.pvd beside a folder of .vtp files with every body's surface. @throws IoError
+void exportVtk(const RecordingReader& recording, const std::filesystem::path& file);
+
+}  // namespace cairn

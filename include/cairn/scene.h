@@ -1,0 +1,151 @@
+/// @file Scenes: initial states with materials, events and settings; read from and written to JSON, or built in.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "cairn/world.h"
+
+namespace cairn {
+
+/// A body of a scene; its index in Scene::bodies is its number in recordings and events.
+struct SceneBody {
+    Shape shape = Sphere{};
+    std::string material;
+    std::string name;                      ///< unique if not empty
+    std::optional<double> mass;            ///< [kg]
+    Vec3 position = Vec3::Zero();          ///< [m, W]
+    Quat orientation = Quat::Identity();   ///< B to W
+    Vec3 linear_velocity = Vec3::Zero();   ///< [m/s, W]
+    Vec3 angular_velocity = Vec3::Zero();  ///< [rad/s, W]
+    bool fixed = false;
+    bool asleep = false;
+};
+
+/// A spring of a scene.
+struct SceneSpring {
+    std::size_t a = 0;             ///< index of the body
+    std::optional<std::size_t> b;  ///< index of the second body; none = a point of the world
+    Vec3 anchor_a = Vec3::Zero();  ///< [m, frame of A]
+    Vec3 anchor_b = Vec3::Zero();  ///< [m, frame of B or W]
+    double stiffness = 0;          ///< [N/m]
+    double damping = 0;            ///< [N·s/m]
+    double rest_length = 0;        ///< [m]
+};
+
+/// What an event does.
+struct SetGravity {
+    Vec3 gravity;
+};  ///< [m/s², W]
+struct SetVelocity {
+    std::size_t body;
+    Vec3 velocity;
+};  ///< [m/s, W]
+struct GiveImpulse {
+    std::size_t body;
+    Vec3 impulse;
+};  ///< [N·s, W]
+struct SetForce {
+    std::size_t body;
+    Vec3 force;
+};  ///< from then on [N, W]
+struct SetTorque {
+    std::size_t body;
+    Vec3 torque;
+};  ///< from then on [N·m, W]
+struct RemoveBody {
+    std::size_t body;
+};
+using EventAction = std::variant<SetGravity, SetVelocity, GiveImpulse, SetForce, SetTorque, RemoveBody>;
+
+/// Happens at the first time step that begins at or after its time.
+struct SceneEvent {
+    double time = 0;  ///< [s], ≥ 0
+    EventAction action = SetGravity{Vec3::Zero()};
+};
+
+/// Everything of a scene file, in its order.
+struct Scene {
+    std::string name;
+    double duration = 0;          ///< [s], > 0
+    Vec3 gravity = Vec3::Zero();  ///< [m/s², W]
+    std::vector<SceneEvent> events;
+    std::vector<Material> materials;
+    PairProperties default_pair;
+    std::vector<std::pair<std::pair<std::string, std::string>, PairProperties>> pairs;
+    std::vector<SceneBody> bodies;
+    std::vector<SceneSpring> springs;
+    std::optional<Preset> preset;                                ///< of `settings.preset`
+    std::vector<std::pair<std::string, SettingValue>> settings;  ///< the other fields of `settings`
+};
+
+/// @throws InputError with file, line or JSON path, the value and what is allowed; IoError if it cannot be read
+Scene readScene(const std::filesystem::path& file);
+/// @param source shown in messages in place of a file name
+Scene parseScene(std::string_view json, std::string_view source);
+/// @throws IoError
+void writeScene(const Scene& scene, const std::filesystem::path& file);
+std::string formatScene(const Scene& scene);
+
+/// A built-in scene, or a family of them.
+struct BuiltInScene {
+    std::string_view name;  ///< as on the command line: "stacks5", "tower:N"
+    std::string_view description;
+    std::string_view example;  ///< a name that can be given, "tower:10"
+};
+std::vector<BuiltInScene> builtInScenes();
+/// @param name such as "cage384" or "tower:20" @throws InputError for an unknown name or a bad number
+Scene builtInScene(std::string_view name);
+/// True if the name (before a colon) is one of a built-in scene.
+bool isBuiltInScene(std::string_view name);
+
+/// What overrides a scene's own settings.
+struct SettingOverrides {
+    std::optional<Preset> preset;
+    std::optional<double> steps_per_second;
+    std::vector<std::pair<std::string, std::string>> fields;  ///< name and text, as in `--set`
+};
+
+/// The settings of a run: preset (override, then scene, then performance) scaled to the steps per second and to the
+/// weakest gravity the scene has at any time, then the scene's fields, then the overrides. @throws InputError
+Settings settingsFor(const Scene& scene, const SettingOverrides& overrides = {});
+
+/// A scene in a world, with its events.
+class SceneRun {
+  public:
+    /// @throws InputError
+    SceneRun(const Scene& scene, const Settings& settings);
+
+    World& world() { return world_; }
+    const World& world() const { return world_; }
+    const Scene& scene() const { return scene_; }
+    /// Ids of the scene's bodies, by index; stale once removed.
+    const std::vector<BodyId>& ids() const { return ids_; }
+
+    /// Applies the events that are due, then steps the world once.
+    void step();
+    /// One simulation step of 1/30 s. @return the sum of the statistics of its time steps
+    Statistics simulationStep();
+    /// Time steps of one simulation step.
+    int stepsPerSimulationStep() const;
+
+  private:
+    void apply(const EventAction& action);
+
+    Scene scene_;
+    World world_;
+    std::vector<BodyId> ids_;
+    std::size_t next_event_ = 0;
+};
+
+/// Simulation steps (recorded frames) per second. @source thesis §5.1
+inline constexpr double simulation_steps_per_second = 30;
+
+}  // namespace cairn

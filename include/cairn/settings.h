@@ -1,0 +1,126 @@
+/// @file Every setting of a world, one struct per stage, with the two presets of the thesis (§5.1, §5.5).
+/// Units, defaults, ranges and meanings of all fields also stand in settingFields(), from which the command line,
+/// the scene files, the documentation and the viewer read them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "cairn/types.h"
+
+namespace cairn {
+
+/// The two ends of the dial between speed and truth. @source thesis §5.1 and §5.5
+enum class Preset { performance, accuracy };
+
+enum class BroadPhaseKind { hash_grids, all_pairs };
+enum class CorrectionKind { propagated, none };
+enum class ResolutionKind { impulse_queue, sweep, none };
+/// Which closing contact is resolved next. @source thesis §3.6 and §5.4
+enum class ResolutionOrder { highest_closing_speed, arbitrary };
+
+struct DetectionSettings {
+    BroadPhaseKind broad_phase = BroadPhaseKind::hash_grids;
+    double contact_margin = 1e-4;  ///< contacts are reported up to this distance before touching [m], ≥ 0
+};
+
+struct CorrectionSettings {
+    CorrectionKind correction = CorrectionKind::propagated;
+    double penetration_threshold = 1.74e-3;  ///< overlap above which a contact is corrected [m]; −thr_pen of the thesis
+    double remaining_penetration = 0.5;      ///< part of the threshold that a correction leaves, in (0, 1) (2.5.4)
+};
+
+struct ResolutionSettings {
+    ResolutionKind resolution = ResolutionKind::impulse_queue;
+    ResolutionOrder order = ResolutionOrder::highest_closing_speed;
+    double resolution_threshold = 83.4e-6;   ///< closing speed above which a contact is resolved [m/s] (3.4.3)
+    double restitution_threshold = 45.8e-3;  ///< closing speed below which restitution is zero [m/s] (3.8.1)
+    double global_iterations = 2;    ///< limit of resolutions as a multiple of the batch's contacts; 0 = unlimited
+    bool shock_propagation = true;   ///< Algorithm 10, when the limit was reached with contacts still closing
+    double shock_iterations = 6;     ///< the same limit for each stage of the shock propagation; 0 = unlimited
+    std::int64_t queue_switch = 64;  ///< batches with more contacts use the ordered queue (§3.8)
+    std::int64_t sweeps = 50;        ///< sweeps over the contacts of ResolutionKind::sweep, ≥ 1
+};
+
+struct SleepSettings {
+    bool sleeping = true;
+    double sleep_threshold = 8.33e-3;  ///< a body whose averaged motion is below this sleeps [m/s], < |g|Δt (3.2.5)
+    double motion_bias = 0.9;          ///< weight of the history in the averaged motion, 0 ≤ bias < 1 (3.2.4)
+    double motion_limit = 10;          ///< the averaged motion is capped at limit·sleep_threshold, > 1 (Algorithm 5)
+};
+
+struct GravityDampingSettings {
+    double damping = 0.7;                ///< part of gravity taken away from slow bodies, 0 = off, ≤ 1 (Algorithm 12)
+    double damping_threshold = 83.3e-3;  ///< bodies below this motion are damped [m/s]
+};
+
+struct IntegrationSettings {
+    bool gyroscopic = true;  ///< torque-free rotation keeps its angular momentum (Euler's equations)
+};
+
+struct ParallelSettings {
+    std::int64_t threads = 1;       ///< threads that a step uses, 1 to 1024; results do not depend on it
+    std::int64_t large_batch = 32;  ///< batches with at least so many contacts are handed out one by one (§4)
+};
+
+/// All settings of a world.
+struct Settings {
+    double steps_per_second = 240;  ///< time steps per simulated second, 30 to 1e6; the thesis asks for at least 180
+    DetectionSettings detection;
+    CorrectionSettings correction;
+    ResolutionSettings resolution;
+    SleepSettings sleep;
+    GravityDampingSettings gravity_damping;
+    IntegrationSettings integration;
+    ParallelSettings parallel;
+
+    /// The length of a time step [s].
+    double timeStep() const { return 1 / steps_per_second; }
+
+    /// A preset of the thesis. Its speed thresholds are multiples of |g|Δt and are given for g = 10 m/s² and the
+    /// preset's own time step; other values scale them, so that a resting body is still told from a colliding one.
+    /// @param preset which end of the dial
+    /// @param steps_per_second [1/s], 30 to 1e6; 0 = the preset's own (240 or 960)
+    /// @param gravity [m/s²], ≥ 0, magnitude of the sum of global accelerations; 0 (weightless) counts as 10
+    /// @throws InputError outside the ranges. @source thesis §5.1, §5.5
+    static Settings preset(Preset preset, double steps_per_second = 0, double gravity = 10);
+};
+
+/// The value of any field: a switch, a whole number, a number or the name of a choice.
+using SettingValue = std::variant<bool, std::int64_t, double, std::string>;
+
+/// One field of Settings, by name.
+struct SettingField {
+    std::string_view name;                      ///< unique, as in scene files and `--set name=value`
+    std::string_view stage;                     ///< the struct it belongs to
+    std::string_view unit;                      ///< SI unit, or empty
+    std::string_view meaning;                   ///< one sentence
+    double minimum;                             ///< smallest allowed number (numbers only)
+    double maximum;                             ///< largest allowed number (numbers only)
+    std::span<const std::string_view> choices;  ///< allowed names (choices only)
+    SettingValue (*get)(const Settings&);
+    void (*set)(Settings&, const SettingValue&);  ///< assigns a value that was checked before
+};
+
+/// All fields, in a fixed order. @source docs/settings.md
+std::span<const SettingField> settingFields();
+
+/// Sets one field. Whole numbers are accepted for numbers. @throws InputError for an unknown name, another type, a
+/// non-finite number or a value out of range; the text names what is allowed
+void setField(Settings& settings, std::string_view name, const SettingValue& value);
+
+/// Sets one field from text, as in `--set name=value`. @throws InputError as setField
+void setFieldFromText(Settings& settings, std::string_view name, std::string_view text);
+
+/// Reads one field. @throws InputError for an unknown name
+SettingValue getField(const Settings& settings, std::string_view name);
+
+/// Refuses values out of range and settings that contradict each other.
+/// @param gravity sum of all global accelerations [m/s², world]; zero is allowed
+/// @throws InputError with the reason and the remedy
+void validate(const Settings& settings, const Vec3& gravity);
+
+}  // namespace cairn

@@ -1,0 +1,165 @@
+/// @file The world: bodies, materials, springs and the time step. Right-handed, SI units, world frame W unless named.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cairn/material.h"
+#include "cairn/settings.h"
+#include "cairn/shape.h"
+#include "cairn/statistics.h"
+#include "cairn/types.h"
+
+namespace cairn {
+
+/// How a body begins.
+struct BodyDescription {
+    Shape shape = Sphere{};
+    MaterialId material{};                 ///< must exist in the world
+    std::optional<double> mass;            ///< [kg], > 0; otherwise density times volume
+    Pose pose;                             ///< of B in W; the quaternion is normalised, it must not be zero
+    Vec3 linear_velocity = Vec3::Zero();   ///< of the centre of mass [m/s, W]
+    Vec3 angular_velocity = Vec3::Zero();  ///< [rad/s, W]
+    bool fixed = false;                    ///< never moves, infinite mass; half-spaces must be fixed
+    bool asleep = false;                   ///< begins asleep (velocities must be zero)
+    std::string name;                      ///< free, for messages and viewers
+};
+
+/// A damped spring between two points. @source pe engine's springs, by behaviour
+struct SpringDescription {
+    BodyId a;                      ///< first body
+    Vec3 anchor_a = Vec3::Zero();  ///< [m, frame of A]
+    std::optional<BodyId> b;       ///< second body; none = a point of the world
+    Vec3 anchor_b = Vec3::Zero();  ///< [m, frame of B, or W without a second body]
+    double stiffness = 0;          ///< [N/m], ≥ 0
+    double damping = 0;            ///< along the spring [N·s/m], ≥ 0
+    double rest_length = 0;        ///< [m], ≥ 0
+};
+
+/// A contact as it was after the last step.
+struct ContactInfo {
+    BodyId a, b;
+    Vec3 point;           ///< [m, W]
+    Vec3 normal;          ///< unit, from B to A, W
+    double distance;      ///< along the normal [m]; negative = overlap
+    Vec3 impulse;         ///< that A received in the step [N·s, W]; B received the opposite
+    std::uint32_t batch;  ///< index of its batch
+};
+
+/// A group of bodies connected by contacts, fixed bodies being barriers.
+struct BatchInfo {
+    std::vector<BodyId> bodies;  ///< in ascending order of id
+    std::size_t contacts = 0;
+};
+
+/// A body that left the finite numbers was fixed where it last was finite.
+struct FaultInfo {
+    BodyId body;
+    std::int64_t step = 0;  ///< number of the time step, from 1
+    std::string what;
+};
+
+/// A simulated world. Not copyable; one thread at a time may use it (its own threads are inside step()).
+class World {
+  public:
+    /// @throws InputError if the settings are out of range or contradict each other
+    explicit World(const Settings& settings = Settings::preset(Preset::performance));
+    ~World();
+    World(World&&) noexcept;
+    World& operator=(World&&) noexcept;
+
+    // --- materials ---
+    /// @throws InputError for an empty or used name or a density that is not positive and finite
+    MaterialId addMaterial(const Material& material);
+    std::span<const Material> materials() const;
+    /// Properties of a pair that has none of its own. @throws InputError out of range or kinetic > static
+    void setDefaultPairProperties(const PairProperties& properties);
+    /// Properties where a touches b (and b touches a). @throws InputError as above or for an unknown material
+    void setPairProperties(MaterialId a, MaterialId b, const PairProperties& properties);
+    PairProperties pairProperties(MaterialId a, MaterialId b) const;
+
+    // --- bodies ---
+    /// @throws InputError names the member, its value and what is allowed
+    BodyId addBody(const BodyDescription& description);
+    /// Wakes the sleeping bodies that touched it; its springs go with it. @throws StaleIdError
+    void removeBody(BodyId id);
+    bool contains(BodyId id) const noexcept;
+    /// All bodies, in ascending order of index.
+    std::vector<BodyId> bodies() const;
+    std::size_t bodyCount() const noexcept;
+
+    // Reading; all throw StaleIdError.
+    const Shape& shape(BodyId id) const;
+    const std::string& name(BodyId id) const;
+    MaterialId material(BodyId id) const;
+    Pose pose(BodyId id) const;              ///< of B in W [m]
+    Vec3 linearVelocity(BodyId id) const;    ///< of the centre of mass [m/s, W]
+    Vec3 angularVelocity(BodyId id) const;   ///< [rad/s, W]
+    double mass(BodyId id) const;            ///< [kg]; infinite for fixed bodies
+    Vec3 principalInertia(BodyId id) const;  ///< about the centre of mass [kg·m², B]; infinite for fixed bodies
+    bool isFixed(BodyId id) const;
+    bool isAsleep(BodyId id) const;
+
+    // Writing; each wakes the body (wake condition 1). All throw StaleIdError, and InputError for non-finite values.
+    void setPose(BodyId id, const Pose& pose);
+    void setLinearVelocity(BodyId id, const Vec3& v);   ///< [m/s, W]; a fixed body refuses it
+    void setAngularVelocity(BodyId id, const Vec3& w);  ///< [rad/s, W]; a fixed body refuses it
+    void setFixed(BodyId id, bool fixed);               ///< a half-space refuses to be dynamic
+    void wake(BodyId id);
+    /// Adds a force at the centre of mass for the next step. @param force [N, W]
+    void applyForce(BodyId id, const Vec3& force);
+    /// Adds a force at a point for the next step. @param force [N, W] @param point [m, W]
+    void applyForceAt(BodyId id, const Vec3& force, const Vec3& point);
+    void applyTorque(BodyId id, const Vec3& torque);    ///< for the next step [N·m, W]
+    void applyImpulse(BodyId id, const Vec3& impulse);  ///< at once, at the centre of mass [N·s, W]
+    /// At once. @param impulse [N·s, W] @param point [m, W]
+    void applyImpulseAt(BodyId id, const Vec3& impulse, const Vec3& point);
+    void applyAngularImpulse(BodyId id, const Vec3& impulse);  ///< at once [N·m·s, W]
+    void setConstantForce(BodyId id, const Vec3& force);       ///< in every step from now on [N, W]
+    void setConstantTorque(BodyId id, const Vec3& torque);     ///< in every step from now on [N·m, W]
+
+    // --- springs ---
+    /// @throws InputError, StaleIdError
+    SpringId addSpring(const SpringDescription& description);
+    void removeSpring(SpringId id);  ///< @throws StaleIdError
+    /// Moves the second anchor of a spring, wakes its bodies. @param anchor_b [m, frame of B or W] @throws as above
+    void setSpringAnchor(SpringId id, const Vec3& anchor_b);
+
+    // --- global accelerations; a change wakes every body ---
+    /// @param gravity [m/s², W] @throws InputError if not finite or contradicting the settings (3.2.5)
+    void setGravity(const Vec3& gravity);
+    Vec3 gravity() const;
+    /// A second acceleration of all bodies, such as a vehicle's; gravity is not changed. @throws as setGravity
+    void setGlobalAcceleration(const Vec3& acceleration);
+    Vec3 globalAcceleration() const;
+
+    // --- time ---
+    /// One time step. @source thesis Algorithm 6
+    void step();
+    double time() const;             ///< simulated time [s]
+    std::int64_t stepCount() const;  ///< time steps done
+    const Settings& settings() const;
+    /// Takes effect at the next step. @throws InputError as the constructor
+    void setSettings(const Settings& settings);
+
+    // --- after a step ---
+    std::vector<ContactInfo> contacts() const;
+    std::vector<BatchInfo> batches() const;
+    const Statistics& statistics() const;          ///< of the last step
+    const std::vector<FaultInfo>& faults() const;  ///< all so far
+    double kineticEnergy() const;                  ///< [J]
+    double potentialEnergy() const;                ///< [J], in the sum of the global accelerations, zero at the origin
+    Vec3 linearMomentum() const;                   ///< of all dynamic bodies [N·s, W]
+    Vec3 angularMomentum() const;                  ///< of all dynamic bodies about the origin [N·m·s, W]
+    /// A hash of the poses, velocities and sleeping states of all bodies; equal states have equal hashes.
+    std::uint64_t stateHash() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace cairn

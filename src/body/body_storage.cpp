@@ -1,0 +1,102 @@
+#include "body/body_storage.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "math/rotation.h"
+
+namespace cairn {
+
+BodyIndex BodyStorage::indexOf(BodyId id) const {
+    if (contains(id)) return id.index;
+    throw StaleIdError(fmt::format("body id {}:{} is not in the world: it was removed or belongs to another world; "
+                                   "ask World::contains() first",
+                                   id.index, id.generation));
+}
+
+BodyIndex BodyStorage::allocate(BodyKind new_kind) {
+    BodyIndex i = 0;
+    if (holes_.empty()) {
+        i = static_cast<BodyIndex>(kind.size());
+        const std::size_t n = kind.size() + 1;
+        kind.resize(n);
+        generation.resize(n, 0);
+        shape.resize(n);
+        material.resize(n);
+        name.resize(n);
+        position.resize(n);
+        orientation.resize(n);
+        v.resize(n);
+        w.resize(n);
+        mass.resize(n);
+        inertia_B.resize(n);
+        mass_inv.resize(n);
+        inertiaInv_B.resize(n);
+        inertiaInv_W.resize(n);
+        r_max.resize(n);
+        linear_step.resize(n);
+        force.resize(n);
+        torque.resize(n);
+        constant_force.resize(n);
+        constant_torque.resize(n);
+        asleep.resize(n);
+        woken.resize(n);
+        motion.resize(n);
+        supports.resize(n);
+    } else {
+        std::pop_heap(holes_.begin(), holes_.end(), std::greater<>());
+        i = holes_.back();
+        holes_.pop_back();
+    }
+    kind[i] = new_kind;
+    position[i] = v[i] = w[i] = linear_step[i] = Vec3::Zero();
+    force[i] = torque[i] = constant_force[i] = constant_torque[i] = Vec3::Zero();
+    orientation[i] = Quat::Identity();
+    inertiaInv_B[i] = inertia_B[i] = Vec3::Zero();
+    inertiaInv_W[i] = Mat3::Zero();
+    mass[i] = mass_inv[i] = r_max[i] = motion[i] = 0;
+    asleep[i] = 0;
+    woken[i] = WakeReason::none;
+    supports[i] = -1;
+    ++count_;
+    return i;
+}
+
+void BodyStorage::release(BodyIndex i) {
+    kind[i] = BodyKind::hole;
+    ++generation[i];
+    name[i].clear();
+    mass_inv[i] = 0;
+    asleep[i] = 0;
+    holes_.push_back(i);
+    std::push_heap(holes_.begin(), holes_.end(), std::greater<>());
+    --count_;
+}
+
+void BodyStorage::updateMassProperties(BodyIndex i) {
+    if (kind[i] == BodyKind::dynamic) {
+        mass_inv[i] = 1 / mass[i];
+        inertiaInv_B[i] = inertia_B[i].cwiseInverse();
+        inertiaInv_W[i] = toWorldInertia(inertiaInv_B[i], orientation[i]);
+    } else {
+        mass_inv[i] = 0;
+        inertiaInv_B[i].setZero();
+        inertiaInv_W[i].setZero();
+    }
+}
+
+BodyState BodyStorage::state() {
+    return {.kind = kind,
+            .position = position,
+            .v = v,
+            .w = w,
+            .mass_inv = mass_inv,
+            .inertiaInv_W = inertiaInv_W,
+            .linear_step = linear_step,
+            .asleep = asleep,
+            .woken = woken};
+}
+
+}  // namespace cairn

@@ -1,0 +1,102 @@
+/// @file Structure-of-arrays storage of bodies. Slots keep their index for life; a removed body leaves a hole that a
+/// later body may fill with the next generation. All loops run over slots in ascending order and skip holes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cairn/shape.h"
+#include "cairn/types.h"
+
+namespace cairn {
+
+/// Index of a body's slot.
+using BodyIndex = std::uint32_t;
+
+/// What a slot holds.
+enum class BodyKind : std::uint8_t { hole, fixed, dynamic };
+
+/// Why a body woke. The first six are the wake conditions of thesis §3.2.
+enum class WakeReason : std::uint8_t {
+    none,
+    changed,            ///< 1 its state or a force on it was changed
+    displaced,          ///< 2 the penetration correction moved it
+    struck,             ///< 3 a contact of it was resolved
+    neighbour_removed,  ///< 4 a body it touched was removed
+    support_lost,       ///< 5 fewer contacts in the direction of gravity than in the last step
+    floating,           ///< 6 no contact in the direction of gravity
+};
+
+/// The state of bodies that the response reads and writes; knows nothing of shapes. All spans have one entry per slot.
+struct BodyState {
+    std::span<const BodyKind> kind;
+    std::span<Vec3> position;            ///< centre of mass [m, W]
+    std::span<Vec3> v;                   ///< [m/s, W]
+    std::span<Vec3> w;                   ///< [rad/s, W]
+    std::span<const double> mass_inv;    ///< [1/kg]; 0 for fixed bodies
+    std::span<const Mat3> inertiaInv_W;  ///< [1/(kg·m²), W]; 0 for fixed bodies
+    std::span<const Vec3> linear_step;   ///< ℓ: displacement by the linear velocity in this time step [m, W]
+    std::span<std::uint8_t> asleep;      ///< 1 = asleep
+    std::span<WakeReason> woken;         ///< why it woke in this step
+
+    std::size_t size() const { return kind.size(); }
+    bool isFixed(BodyIndex i) const { return kind[i] != BodyKind::dynamic; }
+    /// Wakes a sleeping body, keeping the first reason of the step.
+    void wake(BodyIndex i, WakeReason reason) const {
+        if (asleep[i] == 0) return;
+        asleep[i] = 0;
+        woken[i] = reason;
+    }
+};
+
+/// All bodies of a world.
+class BodyStorage {
+  public:
+    // One entry per slot; a hole's entries are those of its last body, its kind is hole.
+    std::vector<BodyKind> kind;
+    std::vector<std::uint32_t> generation;
+    std::vector<Shape> shape;
+    std::vector<std::uint32_t> material;
+    std::vector<std::string> name;
+    std::vector<Vec3> position;       ///< centre of mass [m, W]
+    std::vector<Quat> orientation;    ///< B to W
+    std::vector<Vec3> v;              ///< [m/s, W]
+    std::vector<Vec3> w;              ///< [rad/s, W]
+    std::vector<double> mass;         ///< [kg], of the description also for fixed bodies
+    std::vector<Vec3> inertia_B;      ///< principal moments [kg·m², B]
+    std::vector<double> mass_inv;     ///< [1/kg]; 0 = fixed
+    std::vector<Vec3> inertiaInv_B;   ///< [1/(kg·m²), B]; 0 = fixed
+    std::vector<Mat3> inertiaInv_W;   ///< [1/(kg·m²), W]; follows the orientation
+    std::vector<double> r_max;        ///< largest distance of a surface point from the centre [m]
+    std::vector<Vec3> linear_step;    ///< ℓ: displacement by the linear velocity in this time step [m, W]
+    std::vector<Vec3> force, torque;  ///< for the next step [N], [N·m, W]
+    std::vector<Vec3> constant_force, constant_torque;  ///< in every step [N], [N·m, W]
+    std::vector<std::uint8_t> asleep;                   ///< 1 = asleep
+    std::vector<WakeReason> woken;                      ///< why it woke in this step
+    std::vector<double> motion;          ///< rwa: recency-weighted average of the squared motion [m²/s²] (3.2.4)
+    std::vector<std::int32_t> supports;  ///< contacts in the direction of gravity in the last step; −1 = unknown
+
+    std::size_t slots() const { return kind.size(); }
+    std::size_t count() const { return count_; }
+    bool contains(BodyId id) const {
+        return id.index < kind.size() && kind[id.index] != BodyKind::hole && generation[id.index] == id.generation;
+    }
+    BodyId idOf(BodyIndex i) const { return {i, generation[i]}; }
+    /// @throws StaleIdError
+    BodyIndex indexOf(BodyId id) const;
+
+    /// Takes the lowest hole or appends a slot, every entry reset. The caller fills it.
+    BodyIndex allocate(BodyKind new_kind);
+    void release(BodyIndex i);
+    /// Sets the inverse mass properties from mass, inertia_B, kind and orientation.
+    void updateMassProperties(BodyIndex i);
+    BodyState state();
+
+  private:
+    std::vector<BodyIndex> holes_;  ///< min-heap
+    std::size_t count_ = 0;
+};
+
+}  // namespace cairn

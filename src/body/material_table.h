@@ -1,0 +1,43 @@
+/// @file Materials and their pair properties.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cairn/material.h"
+#include "cairn/types.h"
+
+namespace cairn {
+
+/// All materials of a world and a symmetric table of pair properties.
+class MaterialTable {
+  public:
+    /// @throws InputError
+    MaterialId add(const Material& material);
+    std::span<const Material> all() const { return materials_; }
+    bool contains(MaterialId id) const { return static_cast<std::uint32_t>(id) < materials_.size(); }
+    /// @throws InputError
+    void setDefault(const PairProperties& properties);
+    /// @throws InputError
+    void setPair(MaterialId a, MaterialId b, const PairProperties& properties);
+    /// @pre both indices are valid
+    const PairProperties& pair(std::uint32_t a, std::uint32_t b) const {
+        const Entry& entry = pairs_[a * materials_.size() + b];
+        return entry.own ? entry.properties : default_;
+    }
+
+  private:
+    struct Entry {
+        bool own = false;
+        PairProperties properties;
+    };
+    std::vector<Material> materials_;
+    std::vector<Entry> pairs_;  ///< [material × material]
+    PairProperties default_;
+};
+
+/// @throws InputError with the member, its value and what is allowed
+void validatePair(const PairProperties& properties);
+
+}  // namespace cairn

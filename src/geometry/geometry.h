@@ -1,0 +1,43 @@
+/// @file What the engine needs to know of a shape apart from its contacts. One table entry per kind of shape.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "cairn/shape.h"
+
+namespace cairn {
+
+/// An axis-aligned box in W; infinite shapes have infinite bounds.
+struct Bounds {
+    Vec3 lower = Vec3::Constant(-std::numeric_limits<double>::infinity());  ///< [m, W]
+    Vec3 upper = Vec3::Constant(std::numeric_limits<double>::infinity());   ///< [m, W]
+
+    bool overlaps(const Bounds& other) const {
+        return (lower.array() <= other.upper.array()).all() && (other.lower.array() <= upper.array()).all();
+    }
+};
+
+/// Volume and inertia of a solid of density 1.
+struct UnitMassProperties {
+    double volume;        ///< [m³]; infinite for a half-space
+    Vec3 inertia_volume;  ///< principal moments about the centre for density 1 [m⁵, B]
+};
+
+/// "sphere", "box", "capsule", "plane": the name in scene files.
+std::string_view shapeName(const Shape& shape);
+/// @throws InputError if a dimension is not finite or not positive; the text names it
+void validateShape(const Shape& shape);
+/// True if the shape has no bounds and therefore must be fixed.
+bool isInfinite(const Shape& shape);
+/// @pre validateShape(shape)
+UnitMassProperties unitMassProperties(const Shape& shape);
+/// Largest distance of a surface point from the origin of B [m]: r_max of thesis (3.2.2); infinite for a half-space.
+double largestRadius(const Shape& shape);
+/// Bounds of the posed shape, as tight as an axis-aligned box can be. @param pose of B in W
+Bounds boundsOf(const Shape& shape, const Pose& pose);
+/// The farthest point in a direction. @param direction [B], not zero @return [m, B] @pre !isInfinite(shape)
+Vec3 support(const Shape& shape, const Vec3& direction);
+
+}  // namespace cairn

@@ -1,0 +1,31 @@
+/// @file Loops over ranges on several threads: the only room that knows OpenMP. Stages hand in independent work items;
+/// which thread runs which item never changes a result.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace cairn {
+
+/// Runs loops on a given number of threads. Exceptions thrown by work items are rethrown after the loop (the one of
+/// the lowest item).
+class Executor {
+  public:
+    /// @param threads 1 or more
+    explicit Executor(int threads = 1);
+
+    int threads() const { return threads_; }
+
+    /// Splits [0, count) into one contiguous block per thread ("static" of thesis §4).
+    /// @param work called with (begin, end, thread), thread in [0, threads())
+    void forBlocks(std::size_t count, const std::function<void(std::size_t, std::size_t, int)>& work) const;
+
+    /// Hands out the items of [0, count) one by one, in ascending order ("dynamic,1" of thesis §4).
+    /// @param work called with (item, thread)
+    void forEachDynamic(std::size_t count, const std::function<void(std::size_t, int)>& work) const;
+
+  private:
+    int threads_;
+};
+
+}  // namespace cairn
