@@ -48,7 +48,7 @@ class RecordingWriter {
 
 /// What stands in a recording apart from its frames.
 struct RecordingInfo {
-    Scene scene;
+    Scene scene;                                                ///< as it was run
     std::vector<std::pair<std::string, std::string>> settings;  ///< field and value as text
     std::string version;                                        ///< of Cairn
     std::string machine;                                        ///< processor and operating system
@@ -64,7 +64,7 @@ class RecordingReader {
     ~RecordingReader();
     RecordingReader(RecordingReader&&) noexcept;
 
-    const RecordingInfo& info() const;
+    const RecordingInfo& info() const;  ///< read once, when the file is opened
     /// @param index 0 (the initial state) to info().frames − 1 @throws InputError, IoError
     Frame frame(std::size_t index) const;
 

@@ -17,8 +17,8 @@ namespace cairn {
 
 /// A body of a scene; its index in Scene::bodies is its number in recordings and events.
 struct SceneBody {
-    Shape shape = Sphere{};
-    std::string material;
+    Shape shape = Sphere{};                ///< in its own frame B
+    std::string material;                  ///< name of one of Scene::materials
     std::string name;                      ///< unique if not empty
     std::optional<double> mass;            ///< [kg]
     Vec3 position = Vec3::Zero();          ///< [m, W]
@@ -40,29 +40,35 @@ struct SceneSpring {
     double rest_length = 0;        ///< [m]
 };
 
-/// What an event does.
+/// An event sets gravity.
 struct SetGravity {
-    Vec3 gravity;
-};  ///< [m/s², W]
-struct SetVelocity {
-    std::size_t body;
-    Vec3 velocity;
-};  ///< [m/s, W]
-struct GiveImpulse {
-    std::size_t body;
-    Vec3 impulse;
-};  ///< [N·s, W]
-struct SetForce {
-    std::size_t body;
-    Vec3 force;
-};  ///< from then on [N, W]
-struct SetTorque {
-    std::size_t body;
-    Vec3 torque;
-};  ///< from then on [N·m, W]
-struct RemoveBody {
-    std::size_t body;
+    Vec3 gravity;  ///< [m/s², W]
 };
+/// An event sets a body's velocity.
+struct SetVelocity {
+    std::size_t body;  ///< index in Scene::bodies
+    Vec3 velocity;     ///< linear [m/s, W]
+};
+/// An event gives a body an impulse at its centre of mass.
+struct GiveImpulse {
+    std::size_t body;  ///< index in Scene::bodies
+    Vec3 impulse;      ///< [N·s, W]
+};
+/// An event sets a body's constant force.
+struct SetForce {
+    std::size_t body;  ///< index in Scene::bodies
+    Vec3 force;        ///< from then on, at the centre of mass [N, W]
+};
+/// An event sets a body's constant torque.
+struct SetTorque {
+    std::size_t body;  ///< index in Scene::bodies
+    Vec3 torque;       ///< from then on [N·m, W]
+};
+/// An event takes a body out of the world.
+struct RemoveBody {
+    std::size_t body;  ///< index in Scene::bodies
+};
+/// What an event does.
 using EventAction = std::variant<SetGravity, SetVelocity, GiveImpulse, SetForce, SetTorque, RemoveBody>;
 
 /// Happens at the first time step that begins at or after its time.
@@ -73,7 +79,7 @@ struct SceneEvent {
 
 /// Everything of a scene file, in its order.
 struct Scene {
-    std::string name;
+    std::string name;             ///< for messages and recordings
     double duration = 0;          ///< [s], > 0
     Vec3 gravity = Vec3::Zero();  ///< [m/s², W]
     std::vector<SceneEvent> events;
@@ -92,6 +98,7 @@ Scene readScene(const std::filesystem::path& file);
 Scene parseScene(std::string_view json, std::string_view source);
 /// @throws IoError
 void writeScene(const Scene& scene, const std::filesystem::path& file);
+/// The scene as the text of a scene file.
 std::string formatScene(const Scene& scene);
 
 /// A built-in scene, or a family of them.
@@ -100,6 +107,7 @@ struct BuiltInScene {
     std::string_view description;
     std::string_view example;  ///< a name that can be given, "tower:10"
 };
+/// All of them, in the order in which they are shown.
 std::vector<BuiltInScene> builtInScenes();
 /// @param name such as "cage384" or "tower:20" @throws InputError for an unknown name or a bad number
 Scene builtInScene(std::string_view name);
@@ -108,8 +116,8 @@ bool isBuiltInScene(std::string_view name);
 
 /// What overrides a scene's own settings.
 struct SettingOverrides {
-    std::optional<Preset> preset;
-    std::optional<double> steps_per_second;
+    std::optional<Preset> preset;                             ///< in place of the scene's
+    std::optional<double> steps_per_second;                   ///< in place of the preset's [1/s]
     std::vector<std::pair<std::string, std::string>> fields;  ///< name and text, as in `--set`
 };
 
@@ -123,9 +131,9 @@ class SceneRun {
     /// @throws InputError
     SceneRun(const Scene& scene, const Settings& settings);
 
-    World& world() { return world_; }
-    const World& world() const { return world_; }
-    const Scene& scene() const { return scene_; }
+    World& world() { return world_; }              ///< may be changed between steps
+    const World& world() const { return world_; }  ///< as it is after the last step
+    const Scene& scene() const { return scene_; }  ///< as it was given
     /// Ids of the scene's bodies, by index; stale once removed.
     const std::vector<BodyId>& ids() const { return ids_; }
 

@@ -16,26 +16,29 @@ namespace cairn {
 /// The two ends of the dial between speed and truth. @source thesis §5.1 and §5.5
 enum class Preset { performance, accuracy };
 
+/// How candidates for contacts are found; both find the same.
 enum class BroadPhaseKind { hash_grids, all_pairs };
+/// Which penetration correction runs. @source thesis §2
 enum class CorrectionKind { propagated, none };
+/// Which contact resolution runs; impulse_queue is the thesis's. @source thesis §3
 enum class ResolutionKind { impulse_queue, sweep, none };
 /// Which closing contact is resolved next. @source thesis §3.6 and §5.4
 enum class ResolutionOrder { highest_closing_speed, arbitrary };
 
 struct DetectionSettings {
-    BroadPhaseKind broad_phase = BroadPhaseKind::hash_grids;
+    BroadPhaseKind broad_phase = BroadPhaseKind::hash_grids;  ///< all_pairs is its slow oracle
     double contact_margin = 1e-4;  ///< contacts are reported up to this distance before touching [m], ≥ 0
 };
 
 struct CorrectionSettings {
-    CorrectionKind correction = CorrectionKind::propagated;
+    CorrectionKind correction = CorrectionKind::propagated;  ///< the algorithm, or none
     double penetration_threshold = 1.74e-3;  ///< overlap above which a contact is corrected [m]; −thr_pen of the thesis
     double remaining_penetration = 0.5;      ///< part of the threshold that a correction leaves, in (0, 1) (2.5.4)
 };
 
 struct ResolutionSettings {
-    ResolutionKind resolution = ResolutionKind::impulse_queue;
-    ResolutionOrder order = ResolutionOrder::highest_closing_speed;
+    ResolutionKind resolution = ResolutionKind::impulse_queue;       ///< the algorithm, or none
+    ResolutionOrder order = ResolutionOrder::highest_closing_speed;  ///< of ResolutionKind::impulse_queue
     double resolution_threshold = 83.4e-6;   ///< closing speed above which a contact is resolved [m/s] (3.4.3)
     double restitution_threshold = 45.8e-3;  ///< closing speed below which restitution is zero [m/s] (3.8.1)
     double global_iterations = 2;    ///< limit of resolutions as a multiple of the batch's contacts; 0 = unlimited
@@ -46,7 +49,7 @@ struct ResolutionSettings {
 };
 
 struct SleepSettings {
-    bool sleeping = true;
+    bool sleeping = true;              ///< off = every body stays awake
     double sleep_threshold = 8.33e-3;  ///< a body whose averaged motion is below this sleeps [m/s], < |g|Δt (3.2.5)
     double motion_bias = 0.9;          ///< weight of the history in the averaged motion, 0 ≤ bias < 1 (3.2.4)
     double motion_limit = 10;          ///< the averaged motion is capped at limit·sleep_threshold, > 1 (Algorithm 5)

@@ -11,6 +11,7 @@ namespace cairn {
 /// The nine stages of a time step, in order. @source thesis Algorithm 6
 enum class Stage { events, positions, detection, batches, correction, velocities, resolution, sleeping, output };
 
+/// Number of stages.
 inline constexpr std::size_t stage_count = 9;
 
 /// Names of the stages, as in tables, CSV headers and JSON keys.

@@ -38,8 +38,8 @@ struct BodyId {
 
 /// A stable name of a spring, with the same rules as BodyId.
 struct SpringId {
-    std::uint32_t index = UINT32_MAX;
-    std::uint32_t generation = 0;
+    std::uint32_t index = UINT32_MAX;  ///< slot in the world
+    std::uint32_t generation = 0;      ///< how many springs lived in the slot before
 
     friend auto operator<=>(const SpringId&, const SpringId&) = default;
 };

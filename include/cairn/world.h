@@ -17,7 +17,7 @@ namespace cairn {
 
 /// How a body begins.
 struct BodyDescription {
-    Shape shape = Sphere{};
+    Shape shape = Sphere{};                ///< in its own frame B
     MaterialId material{};                 ///< must exist in the world
     std::optional<double> mass;            ///< [kg], > 0; otherwise density times volume
     Pose pose;                             ///< of B in W; the quaternion is normalised, it must not be zero
@@ -41,7 +41,7 @@ struct SpringDescription {
 
 /// A contact as it was after the last step.
 struct ContactInfo {
-    BodyId a, b;
+    BodyId a, b;          ///< a has the smaller index
     Vec3 point;           ///< [m, W]
     Vec3 normal;          ///< unit, from B to A, W
     double distance;      ///< along the normal [m]; negative = overlap
@@ -57,7 +57,7 @@ struct BatchInfo {
 
 /// A body that left the finite numbers was fixed where it last was finite.
 struct FaultInfo {
-    BodyId body;
+    BodyId body;            ///< which one
     std::int64_t step = 0;  ///< number of the time step, from 1
     std::string what;
 };
@@ -91,7 +91,7 @@ class World {
     std::vector<BodyId> bodies() const;
     std::size_t bodyCount() const noexcept;
 
-    // Reading; all throw StaleIdError.
+    /// Reading; all throw StaleIdError.
     const Shape& shape(BodyId id) const;
     const std::string& name(BodyId id) const;
     MaterialId material(BodyId id) const;
@@ -103,7 +103,7 @@ class World {
     bool isFixed(BodyId id) const;
     bool isAsleep(BodyId id) const;
 
-    // Writing; each wakes the body (wake condition 1). All throw StaleIdError, and InputError for non-finite values.
+    /// Writing; each wakes the body (wake condition 1). All throw StaleIdError, and InputError for non-finite values.
     void setPose(BodyId id, const Pose& pose);
     void setLinearVelocity(BodyId id, const Vec3& v);   ///< [m/s, W]; a fixed body refuses it
     void setAngularVelocity(BodyId id, const Vec3& w);  ///< [rad/s, W]; a fixed body refuses it
@@ -146,8 +146,8 @@ class World {
     void setSettings(const Settings& settings);
 
     // --- after a step ---
-    std::vector<ContactInfo> contacts() const;
-    std::vector<BatchInfo> batches() const;
+    std::vector<ContactInfo> contacts() const;     ///< of the last step, by (a, b)
+    std::vector<BatchInfo> batches() const;        ///< of the last step, by their lowest body
     const Statistics& statistics() const;          ///< of the last step
     const std::vector<FaultInfo>& faults() const;  ///< all so far
     double kineticEnergy() const;                  ///< [J]
