@@ -1,0 +1,59 @@
+# The daily commands. Everything they need is installed when it is missing (Debian packages of tools/packages.txt).
+#   make run       build the release and run the main scene
+#   make test      build the release and run all tests
+#   make sanitize  run the tests under the address, undefined-behaviour and thread sanitizers
+#   make results   measure the scenes and rewrite the table in README.md
+#   make format | tidy | install PREFIX=DIR | clean
+
+SCENE ?= stacks5
+JOBS ?= 2
+PREFIX ?= /usr/local
+SOURCES = $$(find include src apps bench tests examples -name '*.h' -o -name '*.cpp')
+
+# A compiler cache is used where there is one.
+export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
+
+.PHONY: run test sanitize results format tidy install clean
+
+run:
+	@tools/install_packages build
+	@cmake --preset release --log-level=WARNING
+	@cmake --build --preset release --target cairn_cli
+	build/release/cairn run $(SCENE) --record build/$(subst :,-,$(SCENE)).h5
+
+test:
+	@tools/install_packages build test
+	@cmake --preset release --log-level=WARNING
+	@cmake --build --preset release
+	@ctest --preset release -j$(JOBS)
+
+sanitize:
+	@tools/install_packages build test develop
+	@tools/sanitize asan-ubsan
+	@tools/sanitize tsan
+
+results:
+	@tools/install_packages build
+	@cmake --preset release --log-level=WARNING
+	@cmake --build --preset release --target cairn_cli
+	tools/readme_results
+
+format:
+	@tools/install_packages test
+	clang-format -i $(SOURCES)
+
+tidy:
+	@tools/install_packages build develop
+	@cmake --preset release --log-level=WARNING
+	run-clang-tidy -quiet -p build/release -j $(JOBS) "$(CURDIR)/(src|apps)/"
+	cppcheck --quiet --project=build/release/compile_commands.json --file-filter='$(CURDIR)/src/*' \
+	    --enable=warning,performance,portability --inline-suppr --suppress='*:/usr/*' --error-exitcode=1 -j $(JOBS)
+
+install:
+	@tools/install_packages build
+	@cmake --preset release --log-level=WARNING
+	@cmake --build --preset release --target cairn cairn_cli
+	cmake --install build/release --prefix $(PREFIX)
+
+clean:
+	rm -rf build
