@@ -19,20 +19,20 @@ namespace cairn {
 struct BodyDescription {
     Shape shape = Sphere{};                ///< in its own frame B
     MaterialId material{};                 ///< must exist in the world
-    std::optional<double> mass;            ///< [kg], > 0; otherwise density times volume
-    Pose pose;                             ///< of B in W; the quaternion is normalised, it must not be zero
+    std::optional<double> mass{};          ///< [kg], > 0; otherwise density times volume
+    Pose pose{};                           ///< of B in W; the quaternion is normalised, it must not be zero
     Vec3 linear_velocity = Vec3::Zero();   ///< of the centre of mass [m/s, W]
     Vec3 angular_velocity = Vec3::Zero();  ///< [rad/s, W]
     bool fixed = false;                    ///< never moves, infinite mass; half-spaces must be fixed
     bool asleep = false;                   ///< begins asleep (velocities must be zero)
-    std::string name;                      ///< free, for messages and viewers
+    std::string name{};                    ///< free, for messages and viewers
 };
 
 /// A damped spring between two points. @source pe engine's springs, by behaviour
 struct SpringDescription {
-    BodyId a;                      ///< first body
+    BodyId a{};                    ///< first body
     Vec3 anchor_a = Vec3::Zero();  ///< [m, frame of A]
-    std::optional<BodyId> b;       ///< second body; none = a point of the world
+    std::optional<BodyId> b{};     ///< second body; none = a point of the world
     Vec3 anchor_b = Vec3::Zero();  ///< [m, frame of B, or W without a second body]
     double stiffness = 0;          ///< [N/m], ≥ 0
     double damping = 0;            ///< along the spring [N·s/m], ≥ 0
