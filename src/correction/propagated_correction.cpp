@@ -1,0 +1,85 @@
+#include "correction/propagated_correction.h"
+
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace cairn {
+
+namespace {
+
+/// Moves the bodies of a search and wakes them. @return how many
+std::int64_t moveBodies(const Propagation& search, const BodyState& bodies) {
+    for (const BodyIndex body : search.moved()) {
+        bodies.position[body] += search.share(body) * search.displacement();
+        bodies.wake(body, WakeReason::displaced);
+    }
+    return static_cast<std::int64_t>(search.moved().size());
+}
+
+/// Brings the contacts of all moved bodies up to date. @source thesis (2.3.7)
+void updateContacts(const Propagation& search, const ContactsOfBodies& contacts_of, std::span<Contact> contacts) {
+    for (const BodyIndex body : search.moved()) {
+        for (const std::uint32_t index : contacts_of[body]) {
+            Contact& contact = contacts[index];
+            const double share_a = search.share(contact.a);
+            const double share_b = search.share(contact.b);
+            // A contact between two moved bodies is met twice and updated once, with its body A.
+            if (body == contact.b && share_a > 0) continue;
+            contact.point += (0.5 * (share_a + share_b)) * search.displacement();
+            contact.distance += (share_a - share_b) * search.displacement().dot(contact.normal);
+        }
+    }
+}
+
+}  // namespace
+
+CorrectionCounts PropagatedCorrection::correct(const BatchView& batch, const ContactsOfBodies& contacts_of,
+                                               std::span<Contact> contacts, const BodyState& bodies,
+                                               const CorrectionSettings& settings) {
+    const double threshold = -settings.penetration_threshold;  // thr_pen
+    const ContactGraph graph{contacts_of, contacts, bodies, settings.remaining_penetration * threshold};
+    best_.reserve(bodies.size());
+    trial_.reserve(bodies.size());
+    penetrating_.clear();
+    for (const std::uint32_t index : batch.contacts) {
+        if (contacts[index].distance < threshold) penetrating_.push_back(index);
+    }
+
+    CorrectionCounts counts;
+    counts.penetrating = static_cast<std::int64_t>(penetrating_.size());
+    for (const std::uint32_t index : penetrating_) {
+        // The correction of another contact may have corrected this one.
+        if (!(contacts[index].distance < threshold)) continue;
+        if (!choose(contacts[index], graph)) continue;
+        counts.displaced += moveBodies(best_, bodies);
+        updateContacts(best_, contacts_of, contacts);
+    }
+    for (const std::uint32_t index : penetrating_) {
+        if (contacts[index].distance < threshold) {
+            ++counts.uncorrected;
+        } else {
+            ++counts.corrected;
+        }
+    }
+    return counts;
+}
+
+bool PropagatedCorrection::choose(const Contact& contact, const ContactGraph& graph) {
+    std::size_t fewest = std::numeric_limits<std::size_t>::max();
+    CandidateKind best_kind = CandidateKind::normal;
+    bool found = false;
+    for (const Candidate& candidate : listCandidates(contact, graph.bodies, graph.remaining)) {
+        // On a tie a step back along the velocity replaces one along the normal, so it may move as many bodies.
+        const bool wins_tie = candidate.kind == CandidateKind::velocity && best_kind == CandidateKind::normal;
+        const std::size_t limit = wins_tie ? fewest : fewest - 1;
+        if (trial_.run(candidate, graph, limit) != PropagationOutcome::valid) continue;
+        std::swap(best_, trial_);
+        fewest = best_.moved().size();
+        best_kind = candidate.kind;
+        found = true;
+    }
+    return found;
+}
+
+}  // namespace cairn

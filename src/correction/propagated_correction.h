@@ -1,0 +1,28 @@
+/// @file The penetration correction of the thesis. @source thesis §2, Algorithm 2
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "correction/correction.h"
+#include "correction/propagation.h"
+
+namespace cairn {
+
+/// Corrects penetrating contacts one by one, in ascending order of their index. Each is corrected by moving one of its
+/// bodies, and whatever that one pushes, so that no other contact gets deeper than a part of the threshold.
+class PropagatedCorrection final : public Correction {
+  public:
+    CorrectionCounts correct(const BatchView& batch, const ContactsOfBodies& contacts_of, std::span<Contact> contacts,
+                             const BodyState& bodies, const CorrectionSettings& settings) override;
+
+  private:
+    /// Finds the best candidate of a contact and leaves it in best_. @return false if none is valid
+    bool choose(const Contact& contact, const ContactGraph& graph);
+
+    Propagation best_;
+    Propagation trial_;
+    std::vector<std::uint32_t> penetrating_;
+};
+
+}  // namespace cairn

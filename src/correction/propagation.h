@@ -1,0 +1,81 @@
+/// @file How the displacement of one body pushes its neighbours: the search of the penetration correction.
+///
+/// A pushed body moves by the displacement of the one that pushes it, or by a fraction of it (2.3.6). So every
+/// displacement of a search is a multiple of the first, and one number per body, its *share* in [0, 1], is enough. A
+/// larger share of X never means a smaller one of Y and never fewer pushes; the longest displacement of each body (and
+/// whether the search is valid) therefore does not depend on the order in which bodies are processed. Taking the
+/// longest first, where Algorithm 3 takes the latest, gives the same result and processes each body only once, since
+/// no body hands on more than it has.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "batches/batches.h"
+#include "body/contact.h"
+#include "correction/candidate.h"
+
+namespace cairn {
+
+/// What a search reads.
+struct ContactGraph {
+    const ContactsOfBodies& contacts_of;
+    std::span<const Contact> contacts;
+    const BodyState& bodies;
+    double remaining;  ///< f·thr_pen: the distance down to which contacts may be pushed [m], ≤ 0
+};
+
+/// How a search ended.
+enum class PropagationOutcome : std::uint8_t {
+    valid,
+    invalid,    ///< a fixed body or the other body of the first contact would have to move
+    abandoned,  ///< more bodies than allowed are moved
+};
+
+/// One search and its result: the bodies that move and how far. Nothing is moved. Its memory is reused by the next
+/// search. @source thesis Algorithms 1 and 3
+class Propagation {
+  public:
+    /// Makes room for bodies with slots below `slots`.
+    void reserve(std::size_t slots);
+
+    /// Searches what the candidate's displacement moves. @param limit largest number of bodies worth knowing about
+    PropagationOutcome run(const Candidate& candidate, const ContactGraph& graph, std::size_t limit);
+
+    /// The displacement of the first body [m, W].
+    const Vec3& displacement() const { return displacement_; }
+    /// The bodies that move, beginning with the first; complete only after a valid search.
+    std::span<const BodyIndex> moved() const { return moved_; }
+    /// The fraction of displacement() by which a body moves, 0 if it does not.
+    double share(BodyIndex body) const {
+        const Note& note = notes_[body];
+        return note.search == search_ ? note.share : 0;
+    }
+
+  private:
+    /// The longest displacement found for a body; counts only in the search that wrote it.
+    struct Note {
+        std::uint64_t search = 0;
+        double share = 0;
+    };
+    struct Push {
+        double share;
+        BodyIndex body;
+
+        friend bool operator<(const Push& left, const Push& right) { return left.share < right.share; }
+    };
+
+    void note(BodyIndex body, double share);
+    bool pushNeighbours(const Push& push, const ContactGraph& graph);
+
+    std::vector<Note> notes_;  ///< [slots]
+    std::vector<BodyIndex> moved_;
+    std::vector<Push> pending_;  ///< max-heap
+    std::uint64_t search_ = 0;   ///< number of the present search; no entry of notes_ is ever cleared
+    Vec3 displacement_ = Vec3::Zero();
+    BodyIndex other_ = 0;
+};
+
+}  // namespace cairn

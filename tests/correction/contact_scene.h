@@ -1,0 +1,97 @@
+/// @file Bodies and contacts made by hand: what a correction sees, without shapes and without contact detection.
+#pragma once
+
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "correction/correction.h"
+
+namespace cairn::test {
+
+/// A small world of contacts. Bodies get the slots 0, 1, 2, … in the order in which they are added.
+struct ContactScene {
+    std::vector<BodyKind> kind;
+    std::vector<Vec3> position, v, w, linear_step;
+    std::vector<double> mass_inv;
+    std::vector<Mat3> inertiaInv_W;
+    std::vector<std::uint8_t> asleep;
+    std::vector<WakeReason> woken;
+    std::vector<Contact> contacts;
+    CorrectionSettings settings;
+
+    /// A threshold and a remaining part so small that contacts behave as in §2.3, before (2.5.4) refines it.
+    ContactScene() {
+        settings.penetration_threshold = 1e-9;
+        settings.remaining_penetration = 0.5;
+    }
+
+    BodyIndex add(BodyKind new_kind, const Vec3& at) {
+        kind.push_back(new_kind);
+        position.push_back(at);
+        v.push_back(Vec3::Zero());
+        w.push_back(Vec3::Zero());
+        linear_step.push_back(Vec3::Zero());
+        mass_inv.push_back(new_kind == BodyKind::dynamic ? 1 : 0);
+        inertiaInv_W.push_back(new_kind == BodyKind::dynamic ? Mat3(Mat3::Identity()) : Mat3(Mat3::Zero()));
+        asleep.push_back(0);
+        woken.push_back(WakeReason::none);
+        return static_cast<BodyIndex>(kind.size() - 1);
+    }
+    BodyIndex addBody(const Vec3& at = Vec3::Zero()) { return add(BodyKind::dynamic, at); }
+    BodyIndex addFixed(const Vec3& at = Vec3::Zero()) { return add(BodyKind::fixed, at); }
+
+    /// Adds a contact halfway between two bodies; the one with the lower slot becomes A.
+    /// @param to_x unit normal from y to x @return its index
+    std::uint32_t touch(BodyIndex x, BodyIndex y, const Vec3& to_x, double distance) {
+        Contact contact;
+        contact.a = x < y ? x : y;
+        contact.b = x < y ? y : x;
+        contact.normal = x < y ? to_x : Vec3(-to_x);
+        contact.point = 0.5 * (position[x] + position[y]);
+        contact.distance = distance;
+        contacts.push_back(contact);
+        return static_cast<std::uint32_t>(contacts.size() - 1);
+    }
+
+    /// A body moved by this step in the last time step, with the velocity that belongs to it at 240 steps per second.
+    void moveBy(BodyIndex body, const Vec3& step) {
+        linear_step[body] = step;
+        v[body] = 240 * step;
+    }
+
+    BodyState state() { return {kind, position, v, w, mass_inv, inertiaInv_W, linear_step, asleep, woken}; }
+
+    ContactsOfBodies contactsOfBodies() const {
+        ContactsOfBodies table;
+        table.begin.push_back(0);
+        for (BodyIndex body = 0; body < kind.size(); ++body) {
+            for (std::uint32_t i = 0; i < contacts.size() && kind[body] == BodyKind::dynamic; ++i) {
+                if (contacts[i].a == body || contacts[i].b == body) table.contacts.push_back(i);
+            }
+            table.begin.push_back(static_cast<std::uint32_t>(table.contacts.size()));
+        }
+        return table;
+    }
+
+    /// All contacts as one batch.
+    CorrectionCounts correctWith(Correction& correction) {
+        std::vector<BodyIndex> bodies;
+        for (BodyIndex body = 0; body < kind.size(); ++body) {
+            if (kind[body] == BodyKind::dynamic) bodies.push_back(body);
+        }
+        std::vector<std::uint32_t> indices(contacts.size());
+        std::iota(indices.begin(), indices.end(), 0U);
+        return correction.correct({bodies, indices}, contactsOfBodies(), contacts, state(), settings);
+    }
+
+    CorrectionCounts correct() { return correctWith(*makeCorrection(CorrectionKind::propagated)); }
+
+    double remaining() const { return -settings.remaining_penetration * settings.penetration_threshold; }
+};
+
+inline bool near(const Vec3& left, const Vec3& right, double tolerance = 1e-12) {
+    return (left - right).cwiseAbs().maxCoeff() <= tolerance;
+}
+
+}  // namespace cairn::test
