@@ -62,6 +62,8 @@ struct FaultInfo {
     std::string what;
 };
 
+struct WorldState;
+
 /// A simulated world. Not copyable; one thread at a time may use it (its own threads are inside step()).
 class World {
   public:
@@ -158,8 +160,7 @@ class World {
     std::uint64_t stateHash() const;
 
   private:
-    struct State;
-    std::unique_ptr<State> state_;
+    std::unique_ptr<WorldState> state_;
 };
 
 }  // namespace cairn

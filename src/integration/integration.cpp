@@ -1,0 +1,90 @@
+#include "integration/integration.h"
+
+#include "math/rotation.h"
+#include "sleeping/sleeping.h"
+
+namespace cairn {
+
+namespace {
+
+/// Angular velocity in W of a body with angular momentum L. @param inertiaInv_B [1/(kg·m²), B]
+Vec3 angularVelocity(const Quat& R_WB, const Vec3& inertiaInv_B, const Vec3& angular_momentum) {
+    return R_WB * inertiaInv_B.cwiseProduct(R_WB.conjugate() * angular_momentum);
+}
+
+/// dexp⁻¹ on the rotation group up to the order that a fourth-order method needs.
+Vec3 inverseExponentialMap(const Vec3& u, const Vec3& w) {
+    const Vec3 once = u.cross(w);
+    return w - 0.5 * once + u.cross(once) / 12;
+}
+
+bool isIsotropic(const Vec3& inertia_B) {
+    return inertia_B.x() == inertia_B.y() && inertia_B.y() == inertia_B.z();
+}
+
+}  // namespace
+
+void rotateUniformly(Quat& orientation, const Vec3& w, double time) {
+    orientation = (fromRotationVector(w * time) * orientation).normalized();
+}
+
+void rotateFreely(Quat& orientation, Vec3& w, const Vec3& inertia_B, double time) {
+    const Vec3 inertiaInv_B = inertia_B.cwiseInverse();
+    const Vec3 momentum = orientation * inertia_B.cwiseProduct(orientation.conjugate() * w);
+    const auto rate = [&](const Vec3& u) {
+        const Quat turned = fromRotationVector(u) * orientation;
+        return inverseExponentialMap(u, angularVelocity(turned, inertiaInv_B, momentum));
+    };
+    const Vec3 k1 = time * w;
+    const Vec3 k2 = time * rate(k1 / 2);
+    const Vec3 k3 = time * rate(k2 / 2);
+    const Vec3 k4 = time * rate(k3);
+    orientation = (fromRotationVector((k1 + 2 * k2 + 2 * k3 + k4) / 6) * orientation).normalized();
+    w = angularVelocity(orientation, inertiaInv_B, momentum);
+}
+
+void advancePositions(BodyStorage& bodies, const IntegrationSettings& settings, double time_step,
+                      const Executor& executor) {
+    executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (bodies.kind[i] != BodyKind::dynamic || bodies.asleep[i] != 0) {
+                bodies.linear_step[i].setZero();
+                continue;
+            }
+            bodies.linear_step[i] = bodies.v[i] * time_step;
+            bodies.position[i] += bodies.linear_step[i];
+            if (bodies.w[i].isZero(0)) continue;
+            if (isIsotropic(bodies.inertia_B[i])) {
+                rotateUniformly(bodies.orientation[i], bodies.w[i], time_step);
+                continue;
+            }
+            if (settings.gyroscopic) {
+                rotateFreely(bodies.orientation[i], bodies.w[i], bodies.inertia_B[i], time_step);
+            } else {
+                rotateUniformly(bodies.orientation[i], bodies.w[i], time_step);
+            }
+            bodies.inertiaInv_W[i] = toWorldInertia(bodies.inertiaInv_B[i], bodies.orientation[i]);
+        }
+    });
+}
+
+void advanceVelocities(BodyStorage& bodies, const Vec3& acceleration, const GravityDampingSettings& settings,
+                       double time_step, const Executor& executor) {
+    const double threshold = settings.damping_threshold * settings.damping_threshold;
+    executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (bodies.kind[i] == BodyKind::dynamic && bodies.asleep[i] == 0) {
+                const bool slow = squaredMotion(bodies.v[i], bodies.w[i], bodies.r_max[i]) < threshold;
+                const Vec3 force = bodies.force[i] + bodies.constant_force[i];
+                const Vec3 torque = bodies.torque[i] + bodies.constant_torque[i];
+                const double share = slow ? 1 - settings.damping : 1;
+                bodies.v[i] += (share * acceleration + force * bodies.mass_inv[i]) * time_step;
+                bodies.w[i] += bodies.inertiaInv_W[i] * torque * time_step;
+            }
+            bodies.force[i].setZero();
+            bodies.torque[i].setZero();
+        }
+    });
+}
+
+}  // namespace cairn

@@ -1,0 +1,31 @@
+/// @file Moving bodies by their velocities, and velocities by forces. @source thesis §3.1, Algorithms 6 and 12
+#pragma once
+
+#include <span>
+
+#include "body/body_storage.h"
+#include "cairn/settings.h"
+#include "parallel/executor.h"
+
+namespace cairn {
+
+/// Turns a body for a time with no torque acting: the angular momentum in W stays, the angular velocity follows the
+/// orientation (Euler's equations). Fourth-order Runge–Kutta on the rotation group, Munthe-Kaas (1998),
+/// doi:10.1007/BF02510919. @param inertia_B principal [kg·m², B] @param time [s]
+void rotateFreely(Quat& orientation, Vec3& w, const Vec3& inertia_B, double time);
+
+/// Turns a body for a time at constant angular velocity [rad/s, W].
+void rotateUniformly(Quat& orientation, const Vec3& w, double time);
+
+/// Moves all awake dynamic bodies by their velocities and notes ℓ (linear_step); others get ℓ = 0.
+/// @param time_step [s]
+void advancePositions(BodyStorage& bodies, const IntegrationSettings& settings, double time_step,
+                      const Executor& executor);
+
+/// Adds to the velocities of all awake dynamic bodies what the forces give in one step; slow bodies feel only a part of
+/// the global acceleration (Algorithm 12). Clears the one-step forces of all bodies.
+/// @param acceleration sum of the global accelerations [m/s², W]
+void advanceVelocities(BodyStorage& bodies, const Vec3& acceleration, const GravityDampingSettings& settings,
+                       double time_step, const Executor& executor);
+
+}  // namespace cairn

@@ -1,0 +1,69 @@
+#include "sleeping/sleeping.h"
+
+#include <algorithm>
+
+#include "math/tolerances.h"
+
+namespace cairn {
+
+void countSupports(std::span<const BodyKind> kind, std::span<const Contact> contacts,
+                   const ContactsOfBodies& contacts_of, const Vec3& acceleration, const Executor& executor,
+                   std::span<std::int32_t> supports) {
+    const double magnitude = acceleration.norm();
+    const Vec3 down = magnitude > 0 ? Vec3(acceleration / magnitude) : Vec3(Vec3::Zero());
+    executor.forBlocks(kind.size(), [&](std::size_t begin, std::size_t end, int) {
+        for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
+            supports[i] = 0;
+            if (kind[i] != BodyKind::dynamic) continue;
+            for (const std::uint32_t c : contacts_of[i]) {
+                // The normal points to A: A falls into the contact against it, B along it.
+                const double into = contacts[c].normal.dot(down) * (contacts[c].a == i ? -1.0 : 1.0);
+                if (into > perpendicular_cosine) ++supports[i];
+            }
+        }
+    });
+}
+
+void wakeUnsupported(const BodyState& bodies, std::span<const std::int32_t> before, std::span<const std::int32_t> now,
+                     const Executor& executor) {
+    executor.forBlocks(bodies.size(), [&](std::size_t begin, std::size_t end, int) {
+        for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
+            if (bodies.asleep[i] == 0) continue;
+            if (now[i] < before[i]) bodies.wake(i, WakeReason::support_lost);
+            if (now[i] == 0) bodies.wake(i, WakeReason::floating);
+        }
+    });
+}
+
+double initialMotion(const SleepSettings& settings) {
+    const double limit = settings.motion_limit * settings.sleep_threshold;
+    return limit * limit;
+}
+
+void fallAsleep(const BodyState& bodies, const MotionState& state, const SleepSettings& settings, double time_step,
+                const Executor& executor) {
+    const double threshold = settings.sleep_threshold * settings.sleep_threshold;
+    const double limit = initialMotion(settings);
+    executor.forBlocks(bodies.size(), [&](std::size_t begin, std::size_t end, int) {
+        for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
+            if (bodies.isFixed(i) || bodies.asleep[i] != 0) continue;
+            const double squared = squaredMotion(bodies.v[i], bodies.w[i], state.r_max[i]);
+            double& motion = state.motion[i];
+            motion = settings.motion_bias * motion + (1 - settings.motion_bias) * squared;
+            if (!(motion < threshold)) {
+                motion = std::min(motion, limit);
+                continue;
+            }
+            const Vec3 dv = state.constant_force[i] * (bodies.mass_inv[i] * time_step);
+            const Vec3 dw = bodies.inertiaInv_W[i] * state.constant_torque[i] * time_step;
+            const double gained = squaredMotion(dv, dw, state.r_max[i]);
+            if (gained > 0 && gained <= threshold) continue;
+            bodies.v[i].setZero();
+            bodies.w[i].setZero();
+            motion = threshold;
+            bodies.asleep[i] = 1;
+        }
+    });
+}
+
+}  // namespace cairn

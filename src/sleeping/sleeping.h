@@ -1,0 +1,49 @@
+/// @file The sleeping system: bodies that barely move stop being moved until something happens to them.
+/// @source thesis §3.2, Algorithm 5
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "batches/batches.h"
+#include "body/body_storage.h"
+#include "body/contact.h"
+#include "cairn/settings.h"
+#include "parallel/executor.h"
+
+namespace cairn {
+
+/// Upper bound of the squared speed of any point of a body [m²/s²]. @source (3.2.3)
+inline double squaredMotion(const Vec3& v, const Vec3& w, double r_max) {
+    return 2 * (v.squaredNorm() + w.squaredNorm() * r_max * r_max);
+}
+
+/// Counts for every dynamic body its contacts in the direction of gravity: those into which gravity pushes it.
+/// @param acceleration sum of the global accelerations [m/s², W]; zero = no body has such a contact
+/// @param supports [slots] out
+void countSupports(std::span<const BodyKind> kind, std::span<const Contact> contacts,
+                   const ContactsOfBodies& contacts_of, const Vec3& acceleration, const Executor& executor,
+                   std::span<std::int32_t> supports);
+
+/// Wakes sleeping bodies that lost a support since the last step (condition 5) or have none (condition 6).
+/// @param before supports of the last step, −1 = unknown; @param now of this step
+void wakeUnsupported(const BodyState& bodies, std::span<const std::int32_t> before, std::span<const std::int32_t> now,
+                     const Executor& executor);
+
+/// What falling asleep reads and writes besides the response's view of the bodies. One entry per slot.
+struct MotionState {
+    std::span<double> motion;               ///< rwa [m²/s²]
+    std::span<const double> r_max;          ///< [m]
+    std::span<const Vec3> constant_force;   ///< [N]
+    std::span<const Vec3> constant_torque;  ///< [N·m]
+};
+
+/// The value that a new or moved body's averaged motion begins with: the cap, so that rest must be proven first.
+double initialMotion(const SleepSettings& settings);
+
+/// Algorithm 5 for every awake body. A body with a constant force too weak to show within one step stays awake, since
+/// (3.2.5) holds for every lasting force. @param time_step [s]
+void fallAsleep(const BodyState& bodies, const MotionState& motion, const SleepSettings& settings, double time_step,
+                const Executor& executor);
+
+}  // namespace cairn

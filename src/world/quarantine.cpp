@@ -1,0 +1,83 @@
+#include "world/quarantine.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace cairn {
+
+namespace {
+
+bool isSound(const BodyStorage& bodies, std::size_t i) {
+    // Comparisons with NaN are false, so this also catches what is not a number.
+    return bodies.v[i].cwiseAbs().maxCoeff() <= speed_limit && bodies.v[i].allFinite() && bodies.w[i].allFinite() &&
+           bodies.w[i].cwiseAbs().maxCoeff() <= speed_limit && bodies.position[i].allFinite() &&
+           bodies.position[i].cwiseAbs().maxCoeff() <= distance_limit && bodies.orientation[i].coeffs().allFinite();
+}
+
+std::string describe(const BodyStorage& bodies, std::size_t i) {
+    const Vec3& p = bodies.position[i];
+    const Vec3& v = bodies.v[i];
+    const Vec3& w = bodies.w[i];
+    return fmt::format(
+        "position ({}, {}, {}) m, velocity ({}, {}, {}) m/s, angular velocity ({}, {}, {}) rad/s left the "
+        "limits of {} m and {} m/s",
+        p.x(), p.y(), p.z(), v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), distance_limit, speed_limit);
+}
+
+}  // namespace
+
+void quarantine(WorldState& world) {
+    BodyStorage& bodies = world.bodies;
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        if (bodies.kind[i] != BodyKind::dynamic || isSound(bodies, i)) continue;
+        world.faults.push_back({.body = bodies.idOf(i), .step = world.steps, .what = describe(bodies, i)});
+        if (!bodies.position[i].allFinite()) bodies.position[i].setZero();
+        if (!bodies.orientation[i].coeffs().allFinite()) bodies.orientation[i].setIdentity();
+        bodies.v[i].setZero();
+        bodies.w[i].setZero();
+        bodies.constant_force[i].setZero();
+        bodies.constant_torque[i].setZero();
+        bodies.asleep[i] = 0;
+        bodies.kind[i] = BodyKind::fixed;
+        bodies.updateMassProperties(i);
+    }
+}
+
+void summarize(WorldState& world) {
+    Statistics& s = world.statistics;
+    const StepData& data = world.data;
+    s.contacts = static_cast<std::int64_t>(data.contacts.size());
+    for (const CorrectionCounts& counts : data.correction_counts) {
+        s.penetrating_contacts += counts.penetrating;
+        s.corrected_contacts += counts.corrected;
+        s.uncorrected_contacts += counts.uncorrected;
+        s.displaced_bodies += counts.displaced;
+    }
+    for (const ResolutionCounts& counts : data.resolution_counts) {
+        s.global_iterations += counts.global_iterations;
+        s.shock_iterations += counts.shock_iterations;
+        s.shock_batches += counts.shock_batches;
+    }
+    s.batches = static_cast<std::int64_t>(data.batches.size());
+    for (std::size_t i = 0; i < data.batches.size(); ++i) {
+        s.largest_batch = std::max(s.largest_batch, static_cast<std::int64_t>(data.batches[i].contacts.size()));
+    }
+    std::int64_t overlapping = 0;
+    double overlap = 0;
+    for (const Contact& contact : data.contacts) {
+        if (contact.distance >= 0) continue;
+        ++overlapping;
+        overlap -= contact.distance;
+        s.largest_overlap = std::max(s.largest_overlap, -contact.distance);
+    }
+    s.mean_overlap = overlapping > 0 ? overlap / static_cast<double>(overlapping) : 0;
+    for (BodyIndex i = 0; i < world.bodies.slots(); ++i) {
+        s.asleep += world.bodies.asleep[i];
+        if (world.bodies.woken[i] == WakeReason::none) continue;
+        ++s.woken;
+        world.bodies.woken[i] = WakeReason::none;
+    }
+}
+
+}  // namespace cairn

@@ -1,0 +1,20 @@
+/// @file Faults and figures of a step.
+#pragma once
+
+#include "world/world_state.h"
+
+namespace cairn {
+
+/// Bodies faster than this are treated like non-finite ones [m/s, and rad/s]: their next position would lose all
+/// precision.
+inline constexpr double speed_limit = 1e9;
+/// Bodies farther than this from the origin are treated like non-finite ones [m].
+inline constexpr double distance_limit = 1e12;
+
+/// Fixes every body whose state left the finite numbers or the limits, where it is, and notes the fault.
+void quarantine(WorldState& world);
+
+/// Fills the statistics of the step from the stages' arrays.
+void summarize(WorldState& world);
+
+}  // namespace cairn

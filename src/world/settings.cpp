@@ -1,0 +1,293 @@
+#include "cairn/settings.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace cairn {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// The smallest number above zero: the lower end of ranges that exclude zero.
+constexpr double above_zero = std::numeric_limits<double>::min();
+constexpr double most_steps_per_second = 1e6;
+
+constexpr std::array<std::string_view, 2> broad_phase_names = {"hash_grids", "all_pairs"};
+constexpr std::array<std::string_view, 2> correction_names = {"propagated", "none"};
+constexpr std::array<std::string_view, 3> resolution_names = {"impulse_queue", "sweep", "none"};
+constexpr std::array<std::string_view, 2> order_names = {"highest_closing_speed", "arbitrary"};
+
+template <auto Stage, auto Member>
+auto& member(auto& settings) {
+    return (settings.*Stage).*Member;
+}
+
+/// What a field of one value type needs to be read and written: a number, a whole number or a switch.
+template <auto Stage, auto Member>
+SettingField plain(std::string_view name, std::string_view stage, std::string_view unit, double minimum, double maximum,
+                   std::string_view meaning) {
+    return {name,
+            stage,
+            unit,
+            meaning,
+            minimum,
+            maximum,
+            {},
+            [](const Settings& s) -> SettingValue { return member<Stage, Member>(s); },
+            [](Settings& s, const SettingValue& value) {
+                auto& target = member<Stage, Member>(s);
+                target = std::get<std::remove_cvref_t<decltype(target)>>(value);
+            }};
+}
+
+template <auto Stage, auto Member, const auto& Names>
+SettingField choice(std::string_view name, std::string_view stage, std::string_view meaning) {
+    return {name,
+            stage,
+            "",
+            meaning,
+            0,
+            0,
+            Names,
+            [](const Settings& s) -> SettingValue {
+                return std::string(Names[static_cast<std::size_t>(member<Stage, Member>(s))]);
+            },
+            [](Settings& s, const SettingValue& value) {
+                auto& target = member<Stage, Member>(s);
+                const auto found = std::ranges::find(Names, std::get<std::string>(value));
+                target = static_cast<std::remove_cvref_t<decltype(target)>>(found - Names.begin());
+            }};
+}
+
+SettingField stepsPerSecond() {
+    return {"steps_per_second",
+            "time",
+            "1/s",
+            "time steps per simulated second",
+            30,
+            most_steps_per_second,
+            {},
+            [](const Settings& s) -> SettingValue { return s.steps_per_second; },
+            [](Settings& s, const SettingValue& value) { s.steps_per_second = std::get<double>(value); }};
+}
+
+const std::vector<SettingField>& fields() {
+    using S = Settings;
+    using D = DetectionSettings;
+    using C = CorrectionSettings;
+    using R = ResolutionSettings;
+    using L = SleepSettings;
+    using G = GravityDampingSettings;
+    using I = IntegrationSettings;
+    using P = ParallelSettings;
+    static const std::vector<SettingField> all = {
+        stepsPerSecond(),
+        choice<&S::detection, &D::broad_phase, broad_phase_names>("broad_phase", "detection",
+                                                                  "how pairs of near bodies are found"),
+        plain<&S::detection, &D::contact_margin>("contact_margin", "detection", "m", 0, 1,
+                                                 "contacts are reported up to this distance before touching"),
+        choice<&S::correction, &C::correction, correction_names>("correction", "correction",
+                                                                 "algorithm of the penetration correction"),
+        plain<&S::correction, &C::penetration_threshold>("penetration_threshold", "correction", "m", above_zero, 1,
+                                                         "overlap above which a contact is corrected"),
+        plain<&S::correction, &C::remaining_penetration>("remaining_penetration", "correction", "", 0.001, 0.999,
+                                                         "part of the threshold that a correction leaves (2.5.4)"),
+        choice<&S::resolution, &R::resolution, resolution_names>("resolution", "resolution",
+                                                                 "algorithm of the contact resolution"),
+        choice<&S::resolution, &R::order, order_names>("order", "resolution", "which closing contact is resolved next"),
+        plain<&S::resolution, &R::resolution_threshold>("resolution_threshold", "resolution", "m/s", above_zero, 1e3,
+                                                        "closing speed above which a contact is resolved (3.4.3)"),
+        plain<&S::resolution, &R::restitution_threshold>("restitution_threshold", "resolution", "m/s", 0, 1e3,
+                                                         "closing speed below which restitution is zero (3.8.1)"),
+        plain<&S::resolution, &R::global_iterations>(
+            "global_iterations", "resolution", "", 0, 1e6,
+            "limit of resolutions as a multiple of the batch's contacts; 0 = unlimited"),
+        plain<&S::resolution, &R::shock_propagation>("shock_propagation", "resolution", "", 0, 1,
+                                                     "shock propagation when the limit was reached (Algorithm 10)"),
+        plain<&S::resolution, &R::shock_iterations>(
+            "shock_iterations", "resolution", "", 0, 1e6,
+            "limit of each shock stage as a multiple of its contacts; 0 = unlimited"),
+        plain<&S::resolution, &R::queue_switch>("queue_switch", "resolution", "contacts", 0, 1e9,
+                                                "batches with more contacts use the ordered queue (3.8)"),
+        plain<&S::resolution, &R::sweeps>("sweeps", "resolution", "", 1, 1e6,
+                                          "sweeps over the contacts of the resolution 'sweep'"),
+        plain<&S::sleep, &L::sleeping>("sleeping", "sleep", "", 0, 1, "bodies at rest fall asleep"),
+        plain<&S::sleep, &L::sleep_threshold>("sleep_threshold", "sleep", "m/s", 0, 1e3,
+                                              "a body whose averaged motion is below this sleeps (3.2.5)"),
+        plain<&S::sleep, &L::motion_bias>("motion_bias", "sleep", "", 0, 0.999999,
+                                          "weight of the history in the averaged motion (3.2.4)"),
+        plain<&S::sleep, &L::motion_limit>("motion_limit", "sleep", "", 1, 1e6,
+                                           "the averaged motion is capped at this multiple of sleep_threshold"),
+        plain<&S::gravity_damping, &G::damping>("damping", "gravity_damping", "", 0, 0.99,
+                                                "part of gravity taken from slow bodies; 0 = off (Algorithm 12)"),
+        plain<&S::gravity_damping, &G::damping_threshold>("damping_threshold", "gravity_damping", "m/s", 0, 1e3,
+                                                          "bodies below this motion are damped"),
+        plain<&S::integration, &I::gyroscopic>("gyroscopic", "integration", "", 0, 1,
+                                               "torque-free rotation keeps its angular momentum"),
+        plain<&S::parallel, &P::threads>("threads", "parallel", "", 1, 1024,
+                                         "threads of a step; results do not depend on it"),
+        plain<&S::parallel, &P::large_batch>("large_batch", "parallel", "contacts", 1, 1e9,
+                                             "batches with at least so many contacts are handed out one by one"),
+    };
+    return all;
+}
+
+const SettingField& findField(std::string_view name) {
+    for (const SettingField& field : fields()) {
+        if (field.name == name) return field;
+    }
+    std::vector<std::string_view> names;
+    for (const SettingField& field : fields()) names.push_back(field.name);
+    throw InputError(fmt::format("unknown setting '{}'; the settings are {}", name, fmt::join(names, ", ")));
+}
+
+std::string allowedRange(const SettingField& field) {
+    const std::string unit = field.unit.empty() ? "" : fmt::format(" {}", field.unit);
+    if (field.minimum == above_zero) return fmt::format("above 0 and at most {}{}", field.maximum, unit);
+    return fmt::format("within {} and {}{}", field.minimum, field.maximum, unit);
+}
+
+std::string asText(const SettingValue& value) {
+    return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+}
+
+[[noreturn]] void refuse(const SettingField& field, const SettingValue& value, const std::string& allowed) {
+    throw InputError(fmt::format("setting '{}' is {}; it must be {}", field.name, asText(value), allowed));
+}
+
+/// The value in the field's own type, checked. @throws InputError
+SettingValue converted(const SettingField& field, const SettingValue& given) {
+    const SettingValue present = field.get(Settings{});
+    SettingValue value = given;
+    if (std::holds_alternative<std::string>(present)) {
+        const auto* name = std::get_if<std::string>(&given);
+        if (name == nullptr || std::ranges::find(field.choices, *name) == field.choices.end()) {
+            refuse(field, given, fmt::format("one of {}", fmt::join(field.choices, ", ")));
+        }
+        return value;
+    }
+    if (std::holds_alternative<bool>(present)) {
+        if (!std::holds_alternative<bool>(given)) refuse(field, given, "true or false");
+        return value;
+    }
+    double number = 0;
+    if (const auto* whole = std::get_if<std::int64_t>(&given)) {
+        number = static_cast<double>(*whole);
+    } else if (const auto* real = std::get_if<double>(&given)) {
+        number = *real;
+    } else {
+        refuse(field, given, "a number " + allowedRange(field));
+    }
+    if (!(number >= field.minimum && number <= field.maximum)) refuse(field, given, allowedRange(field));
+    if (std::holds_alternative<std::int64_t>(present)) {
+        if (number != std::floor(number)) refuse(field, given, "a whole number " + allowedRange(field));
+        return static_cast<std::int64_t>(number);
+    }
+    return number;
+}
+
+/// Refuses a combination of settings. @throws InputError
+void requireTogether(const Settings& s, double gravity) {
+    const double speed = gravity * s.timeStep();
+    if (!s.sleep.sleeping || gravity == 0) return;
+    if (s.sleep.sleep_threshold >= speed) {
+        throw InputError(fmt::format(
+            "sleep_threshold {} m/s is not below the speed {} m/s that gravity gives a body in one time step, so a "
+            "resting body could never fall (3.2.5); lower sleep_threshold, take fewer steps_per_second or set "
+            "sleeping to false",
+            s.sleep.sleep_threshold, speed));
+    }
+    const double damped = std::sqrt(2.0) * (1 - s.gravity_damping.damping) * speed;
+    if (s.gravity_damping.damping_threshold > 0 && s.sleep.sleep_threshold >= damped) {
+        throw InputError(fmt::format(
+            "with damping {} a released body gains a motion of only {} m/s in one time step and would fall asleep in "
+            "the air: sleep_threshold {} m/s must be lower; lower it or damping",
+            s.gravity_damping.damping, damped, s.sleep.sleep_threshold));
+    }
+}
+
+}  // namespace
+
+Settings Settings::preset(Preset preset, double steps_per_second, double gravity) {
+    const bool accurate = preset == Preset::accuracy;
+    const double own_steps = accurate ? 960 : 240;
+    if (steps_per_second == 0) steps_per_second = own_steps;
+    if (!(steps_per_second >= 30 && steps_per_second <= most_steps_per_second)) {
+        throw InputError(fmt::format("steps_per_second is {}; it must be within 30 and {}", steps_per_second,
+                                     most_steps_per_second));
+    }
+    if (!(gravity >= 0 && std::isfinite(gravity))) {
+        throw InputError(fmt::format("gravity is {} m/s²; it must be finite and at least 0", gravity));
+    }
+    // All speeds below are multiples of |g|Δt; at the preset's own step and g = 10 they are the thesis's figures.
+    const double scale = own_steps / steps_per_second * (gravity > 0 ? gravity / 10 : 1);
+    Settings s;
+    s.steps_per_second = steps_per_second;
+    s.sleep.motion_bias = std::pow(0.9, 240 / steps_per_second);
+    if (accurate) {
+        s.detection.contact_margin = 1e-5;
+        s.correction.penetration_threshold = 0.1e-3;
+        s.resolution.resolution_threshold = 5.2e-6 * scale;
+        s.resolution.restitution_threshold = 11.5e-3 * scale;
+        s.resolution.global_iterations = 0;
+        s.resolution.shock_propagation = false;
+        s.sleep.sleep_threshold = 0.52e-3 * scale;
+        s.gravity_damping.damping = 0;
+        s.gravity_damping.damping_threshold = 0;
+    } else {
+        s.resolution.resolution_threshold *= scale;
+        s.resolution.restitution_threshold *= scale;
+        s.sleep.sleep_threshold *= scale;
+        s.gravity_damping.damping_threshold *= scale;
+    }
+    return s;
+}
+
+std::span<const SettingField> settingFields() {
+    return fields();
+}
+
+void setField(Settings& settings, std::string_view name, const SettingValue& value) {
+    const SettingField& field = findField(name);
+    field.set(settings, converted(field, value));
+}
+
+void setFieldFromText(Settings& settings, std::string_view name, std::string_view text) {
+    const SettingField& field = findField(name);
+    const SettingValue present = field.get(settings);
+    SettingValue value = std::string(text);
+    if (std::holds_alternative<bool>(present)) {
+        if (text == "true" || text == "on" || text == "1") value = true;
+        if (text == "false" || text == "off" || text == "0") value = false;
+    } else if (!std::holds_alternative<std::string>(present)) {
+        double number = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (error == std::errc() && end == text.data() + text.size()) value = number;
+    }
+    field.set(settings, converted(field, value));
+}
+
+SettingValue getField(const Settings& settings, std::string_view name) {
+    return findField(name).get(settings);
+}
+
+void validate(const Settings& settings, const Vec3& gravity) {
+    for (const SettingField& field : fields()) {
+        static_cast<void>(converted(field, field.get(settings)));
+    }
+    if (!gravity.allFinite()) {
+        throw InputError(
+            fmt::format("gravity is ({}, {}, {}) m/s²; it must be finite", gravity.x(), gravity.y(), gravity.z()));
+    }
+    const double magnitude = gravity.stableNorm();
+    if (!(magnitude < infinity)) throw InputError("gravity overflows; its magnitude must be a finite number");
+    requireTogether(settings, magnitude);
+}
+
+}  // namespace cairn

@@ -1,0 +1,137 @@
+#include <chrono>
+
+#include "integration/integration.h"
+#include "sleeping/sleeping.h"
+#include "world/detection.h"
+#include "world/quarantine.h"
+#include "world/world_state.h"
+
+namespace cairn {
+
+namespace {
+
+/// Runs a stage and notes its wall time.
+template <class Work>
+void timed(Statistics& statistics, Stage stage, const Work& work) {
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - begin;
+    statistics.stage_ms[static_cast<std::size_t>(stage)] = passed.count();
+}
+
+/// Works on all batches: large ones one by one, largest first, then the small ones in blocks. @source thesis §4
+template <class Work>
+void forBatches(const StepData& data, const Executor& executor, const Work& work) {
+    executor.forEachDynamic(data.large_batches, [&](std::size_t i, int thread) { work(data.schedule[i], thread); });
+    const std::size_t small = data.schedule.size() - data.large_batches;
+    executor.forBlocks(small, [&](std::size_t begin, std::size_t end, int thread) {
+        for (std::size_t i = begin; i < end; ++i) work(data.schedule[data.large_batches + i], thread);
+    });
+}
+
+void wakeAfterChanges(WorldState& world) {
+    if (world.forces_changed) {
+        const BodyState bodies = world.bodies.state();
+        for (BodyIndex i = 0; i < bodies.size(); ++i) {
+            if (!bodies.isFixed(i)) bodies.wake(i, WakeReason::changed);
+        }
+        world.forces_changed = false;
+    }
+    wakeSpringEnds(world.springs, world.bodies);
+}
+
+void buildBatchesStage(WorldState& world) {
+    StepData& data = world.data;
+    buildBatches(world.bodies.kind, data.contacts, data.batch_scratch, data.batches);
+    listContacts(world.bodies.kind, data.contacts, data.contacts_of);
+    data.large_batches =
+        scheduleBatches(data.batches, static_cast<std::size_t>(world.settings.parallel.large_batch), data.schedule);
+}
+
+void correctStage(WorldState& world) {
+    StepData& data = world.data;
+    const BodyState bodies = world.bodies.state();
+    data.correction_counts.assign(world.corrections.size(), {});
+    forBatches(data, world.executor, [&](std::uint32_t batch, int thread) {
+        const auto t = static_cast<std::size_t>(thread);
+        const CorrectionCounts counts = world.corrections[t]->correct(data.batches[batch], data.contacts_of,
+                                                                      data.contacts, bodies, world.settings.correction);
+        data.correction_counts[t].penetrating += counts.penetrating;
+        data.correction_counts[t].corrected += counts.corrected;
+        data.correction_counts[t].uncorrected += counts.uncorrected;
+        data.correction_counts[t].displaced += counts.displaced;
+    });
+}
+
+void velocityStage(WorldState& world) {
+    StepData& data = world.data;
+    const Vec3 acceleration = world.gravity + world.global_acceleration;
+    data.supports.resize(world.bodies.slots());
+    countSupports(world.bodies.kind, data.contacts, data.contacts_of, acceleration, world.executor, data.supports);
+    // Without a global acceleration no direction is "down": sleeping bodies then stay asleep until something else
+    // happens to them.
+    if (!acceleration.isZero(0)) {
+        wakeUnsupported(world.bodies.state(), world.bodies.supports, data.supports, world.executor);
+    }
+    std::swap(world.bodies.supports, data.supports);
+    advanceVelocities(world.bodies, acceleration, world.settings.gravity_damping, world.settings.timeStep(),
+                      world.executor);
+    applySprings(world.springs, world.bodies, world.settings.timeStep());
+    quarantine(world);
+}
+
+void resolveStage(WorldState& world) {
+    StepData& data = world.data;
+    const BodyState bodies = world.bodies.state();
+    data.resolution_counts.assign(world.resolutions.size(), {});
+    forBatches(data, world.executor, [&](std::uint32_t batch, int thread) {
+        const auto t = static_cast<std::size_t>(thread);
+        const ResolutionCounts counts =
+            world.resolutions[t]->resolve(data.batches[batch], data.contacts, bodies, world.settings.resolution);
+        data.resolution_counts[t].global_iterations += counts.global_iterations;
+        data.resolution_counts[t].shock_iterations += counts.shock_iterations;
+        data.resolution_counts[t].shock_batches += counts.shock_batches;
+    });
+    quarantine(world);
+}
+
+void sleepStage(WorldState& world) {
+    // In zero gravity nothing rests: a slow body that was stopped would lose its momentum.
+    const bool weightless = (world.gravity + world.global_acceleration).isZero(0);
+    if (!world.settings.sleep.sleeping || weightless) return;
+    BodyStorage& b = world.bodies;
+    fallAsleep(b.state(), {b.motion, b.r_max, b.constant_force, b.constant_torque}, world.settings.sleep,
+               world.settings.timeStep(), world.executor);
+}
+
+void outputStage(WorldState& world) {
+    world.data.generation = world.bodies.generation;
+    summarize(world);
+}
+
+}  // namespace
+
+void stepWorld(WorldState& world) {
+    ++world.steps;
+    world.statistics = {};
+    Statistics& statistics = world.statistics;
+    timed(statistics, Stage::events, [&] { wakeAfterChanges(world); });
+    timed(statistics, Stage::positions, [&] {
+        advancePositions(world.bodies, world.settings.integration, world.settings.timeStep(), world.executor);
+    });
+    timed(statistics, Stage::detection, [&] {
+        detectContacts(world.bodies, world.materials, *world.broad_phase, world.settings.detection.contact_margin,
+                       world.executor, world.data);
+    });
+    timed(statistics, Stage::batches, [&] { buildBatchesStage(world); });
+    timed(statistics, Stage::correction, [&] { correctStage(world); });
+    timed(statistics, Stage::velocities, [&] { velocityStage(world); });
+    timed(statistics, Stage::resolution, [&] { resolveStage(world); });
+    timed(statistics, Stage::sleeping, [&] { sleepStage(world); });
+    timed(statistics, Stage::output, [&] { outputStage(world); });
+    // A quotient, not a sum: after a million steps the time is still exact to one rounding.
+    const auto since = static_cast<double>(world.steps - world.steps_at_start);
+    world.time = world.time_at_start + since / world.settings.steps_per_second;
+}
+
+}  // namespace cairn

@@ -1,0 +1,114 @@
+#include "cairn/world.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "world/world_state.h"
+
+namespace cairn {
+
+WorldState::WorldState(const Settings& initial) {
+    applySettings(initial);
+}
+
+void WorldState::applySettings(const Settings& s) {
+    const auto threads = static_cast<std::size_t>(s.parallel.threads);
+    if (broad_phase == nullptr || s.detection.broad_phase != settings.detection.broad_phase) {
+        broad_phase = makeBroadPhase(s.detection.broad_phase);
+    }
+    if (corrections.size() != threads || s.correction.correction != settings.correction.correction) {
+        corrections.clear();
+        for (std::size_t t = 0; t < threads; ++t) corrections.push_back(makeCorrection(s.correction.correction));
+    }
+    if (resolutions.size() != threads || s.resolution.resolution != settings.resolution.resolution) {
+        resolutions.clear();
+        for (std::size_t t = 0; t < threads; ++t) resolutions.push_back(makeResolution(s.resolution.resolution));
+    }
+    executor = Executor(static_cast<int>(threads));
+    if (s.steps_per_second != settings.steps_per_second) {
+        steps_at_start = steps;
+        time_at_start = time;
+    }
+    settings = s;
+}
+
+World::World(const Settings& settings) {
+    validate(settings, Vec3::Zero());
+    state_ = std::make_unique<WorldState>(settings);
+}
+
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+MaterialId World::addMaterial(const Material& material) {
+    return state_->materials.add(material);
+}
+
+std::span<const Material> World::materials() const {
+    return state_->materials.all();
+}
+
+void World::setDefaultPairProperties(const PairProperties& properties) {
+    state_->materials.setDefault(properties);
+}
+
+void World::setPairProperties(MaterialId a, MaterialId b, const PairProperties& properties) {
+    state_->materials.setPair(a, b, properties);
+}
+
+PairProperties World::pairProperties(MaterialId a, MaterialId b) const {
+    for (const MaterialId id : {a, b}) {
+        if (!state_->materials.contains(id)) {
+            throw InputError(fmt::format("material {} is unknown; the world has {} materials",
+                                         static_cast<std::uint32_t>(id), state_->materials.all().size()));
+        }
+    }
+    return state_->materials.pair(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+}
+
+void World::setGravity(const Vec3& gravity) {
+    validate(state_->settings, gravity + state_->global_acceleration);
+    if (gravity == state_->gravity) return;
+    state_->gravity = gravity;
+    state_->forces_changed = true;
+}
+
+Vec3 World::gravity() const {
+    return state_->gravity;
+}
+
+void World::setGlobalAcceleration(const Vec3& acceleration) {
+    validate(state_->settings, state_->gravity + acceleration);
+    if (acceleration == state_->global_acceleration) return;
+    state_->global_acceleration = acceleration;
+    state_->forces_changed = true;
+}
+
+Vec3 World::globalAcceleration() const {
+    return state_->global_acceleration;
+}
+
+void World::step() {
+    stepWorld(*state_);
+}
+
+double World::time() const {
+    return state_->time;
+}
+
+std::int64_t World::stepCount() const {
+    return state_->steps;
+}
+
+const Settings& World::settings() const {
+    return state_->settings;
+}
+
+void World::setSettings(const Settings& settings) {
+    validate(settings, state_->gravity + state_->global_acceleration);
+    state_->applySettings(settings);
+}
+
+}  // namespace cairn

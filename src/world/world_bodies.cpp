@@ -1,0 +1,295 @@
+/// The part of World that adds, removes, reads and writes bodies and springs.
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "cairn/world.h"
+#include "sleeping/sleeping.h"
+#include "world/quarantine.h"
+#include "world/world_state.h"
+
+namespace cairn {
+
+namespace {
+
+/// @throws InputError if a component is not finite or beyond the limit
+void requireWithin(const Vec3& value, double limit, std::string_view what, std::string_view unit) {
+    if (value.allFinite() && value.cwiseAbs().maxCoeff() <= limit) return;
+    throw InputError(fmt::format("{} is ({}, {}, {}) {}; every component must be finite and within ±{} {}", what,
+                                 value.x(), value.y(), value.z(), unit, limit, unit));
+}
+
+/// Limit of forces, torques and impulses: far above any use, far below overflow.
+constexpr double load_limit = 1e30;
+
+/// @throws InputError if it cannot be normalised
+Quat requireRotation(const Quat& q) {
+    const double norm = q.coeffs().stableNorm();
+    if (std::isfinite(norm) && norm > 1e-6) return q.normalized();
+    throw InputError(
+        fmt::format("orientation is ({}, {}, {}, {}); a quaternion (w, x, y, z) must be finite and not zero", q.w(),
+                    q.x(), q.y(), q.z()));
+}
+
+void validateDescription(const BodyDescription& d, const MaterialTable& materials) {
+    validateShape(d.shape);
+    if (!materials.contains(d.material)) {
+        throw InputError(fmt::format("material {} is unknown; add it with World::addMaterial first",
+                                     static_cast<std::uint32_t>(d.material)));
+    }
+    if (d.mass && !(*d.mass > 0 && std::isfinite(*d.mass))) {
+        throw InputError(fmt::format("mass is {} kg; it must be finite and above 0", *d.mass));
+    }
+    requireWithin(d.pose.position, distance_limit, "position", "m");
+    requireWithin(d.linear_velocity, speed_limit, "linear_velocity", "m/s");
+    requireWithin(d.angular_velocity, speed_limit, "angular_velocity", "rad/s");
+    if (isInfinite(d.shape) && !d.fixed) {
+        throw InputError(fmt::format("a {} has no mass and must be fixed", shapeName(d.shape)));
+    }
+    const bool moves = !d.linear_velocity.isZero(0) || !d.angular_velocity.isZero(0);
+    if (d.fixed && moves) throw InputError("a fixed body has no velocity; leave its velocities zero");
+    if (d.asleep && moves) throw InputError("a sleeping body has no velocity; leave its velocities zero");
+}
+
+/// Mass and inertia from density or the given mass. @throws InputError if they under- or overflow
+void setMass(BodyStorage& bodies, BodyIndex i, const BodyDescription& d, double density) {
+    if (isInfinite(d.shape)) return;
+    const UnitMassProperties unit = unitMassProperties(d.shape);
+    const double mass = d.mass ? *d.mass : density * unit.volume;
+    const Vec3 inertia = unit.inertia_volume * (mass / unit.volume);
+    if (!(std::isnormal(mass) && std::isnormal(inertia.minCoeff()) && std::isfinite(inertia.maxCoeff()))) {
+        throw InputError(
+            fmt::format("mass {} kg with inertia ({}, {}, {}) kg·m² cannot be represented; change the "
+                        "size, the density or the mass",
+                        mass, inertia.x(), inertia.y(), inertia.z()));
+    }
+    bodies.mass[i] = mass;
+    bodies.inertia_B[i] = inertia;
+}
+
+/// Body that may be moved by the user. @throws StaleIdError, InputError for a fixed body
+BodyIndex dynamicIndex(const BodyStorage& bodies, BodyId id, std::string_view what) {
+    const BodyIndex i = bodies.indexOf(id);
+    if (bodies.kind[i] == BodyKind::dynamic) return i;
+    throw InputError(
+        fmt::format("body {} is fixed and takes no {}; make it dynamic with World::setFixed first", id.index, what));
+}
+
+}  // namespace
+
+BodyId World::addBody(const BodyDescription& d) {
+    WorldState& w = *state_;
+    validateDescription(d, w.materials);
+    const Quat orientation = requireRotation(d.pose.orientation);
+    BodyStorage& b = w.bodies;
+    const BodyIndex i = b.allocate(d.fixed ? BodyKind::fixed : BodyKind::dynamic);
+    try {
+        setMass(b, i, d, w.materials.all()[static_cast<std::size_t>(d.material)].density);
+    } catch (...) {
+        b.release(i);
+        throw;
+    }
+    b.shape[i] = d.shape;
+    b.material[i] = static_cast<std::uint32_t>(d.material);
+    b.name[i] = d.name;
+    b.position[i] = d.pose.position;
+    b.orientation[i] = orientation;
+    b.v[i] = d.linear_velocity;
+    b.w[i] = d.angular_velocity;
+    b.r_max[i] = largestRadius(d.shape);
+    b.asleep[i] = d.asleep && !d.fixed ? 1 : 0;
+    const double threshold = w.settings.sleep.sleep_threshold;
+    b.motion[i] = b.asleep[i] != 0 ? threshold * threshold : initialMotion(w.settings.sleep);
+    b.updateMassProperties(i);
+    return b.idOf(i);
+}
+
+void World::removeBody(BodyId id) {
+    WorldState& w = *state_;
+    const BodyIndex i = w.bodies.indexOf(id);
+    const BodyState bodies = w.bodies.state();
+    for (const Contact& contact : w.data.contacts) {
+        // Slots that were removed and filled again since the last step do not know these contacts.
+        const BodyIndex other = contact.a == i ? contact.b : contact.a;
+        if (contact.a != i && contact.b != i) continue;
+        if (w.data.generation[i] != id.generation || w.data.generation[other] != w.bodies.generation[other]) continue;
+        if (!bodies.isFixed(other)) bodies.wake(other, WakeReason::neighbour_removed);
+    }
+    for (Spring& spring : w.springs) {
+        if (!spring.present || (spring.a != i && spring.b != i)) continue;
+        const BodyIndex other = spring.a == i ? spring.b : spring.a;
+        if (other != Spring::world_point && !bodies.isFixed(other)) bodies.wake(other, WakeReason::changed);
+        spring.present = false;
+        ++spring.generation;
+    }
+    w.bodies.release(i);
+}
+
+bool World::contains(BodyId id) const noexcept {
+    return state_->bodies.contains(id);
+}
+
+std::vector<BodyId> World::bodies() const {
+    std::vector<BodyId> ids;
+    ids.reserve(state_->bodies.count());
+    for (BodyIndex i = 0; i < state_->bodies.slots(); ++i) {
+        if (state_->bodies.kind[i] != BodyKind::hole) ids.push_back(state_->bodies.idOf(i));
+    }
+    return ids;
+}
+
+std::size_t World::bodyCount() const noexcept {
+    return state_->bodies.count();
+}
+
+const Shape& World::shape(BodyId id) const {
+    return state_->bodies.shape[state_->bodies.indexOf(id)];
+}
+
+const std::string& World::name(BodyId id) const {
+    return state_->bodies.name[state_->bodies.indexOf(id)];
+}
+
+MaterialId World::material(BodyId id) const {
+    return static_cast<MaterialId>(state_->bodies.material[state_->bodies.indexOf(id)]);
+}
+
+Pose World::pose(BodyId id) const {
+    const BodyIndex i = state_->bodies.indexOf(id);
+    return {state_->bodies.position[i], state_->bodies.orientation[i]};
+}
+
+Vec3 World::linearVelocity(BodyId id) const {
+    return state_->bodies.v[state_->bodies.indexOf(id)];
+}
+
+Vec3 World::angularVelocity(BodyId id) const {
+    return state_->bodies.w[state_->bodies.indexOf(id)];
+}
+
+double World::mass(BodyId id) const {
+    const BodyIndex i = state_->bodies.indexOf(id);
+    return state_->bodies.kind[i] == BodyKind::dynamic ? state_->bodies.mass[i]
+                                                       : std::numeric_limits<double>::infinity();
+}
+
+Vec3 World::principalInertia(BodyId id) const {
+    const BodyIndex i = state_->bodies.indexOf(id);
+    if (state_->bodies.kind[i] == BodyKind::dynamic) return state_->bodies.inertia_B[i];
+    return Vec3::Constant(std::numeric_limits<double>::infinity());
+}
+
+bool World::isFixed(BodyId id) const {
+    return state_->bodies.kind[state_->bodies.indexOf(id)] == BodyKind::fixed;
+}
+
+bool World::isAsleep(BodyId id) const {
+    return state_->bodies.asleep[state_->bodies.indexOf(id)] != 0;
+}
+
+void World::setPose(BodyId id, const Pose& pose) {
+    BodyStorage& b = state_->bodies;
+    const BodyIndex i = b.indexOf(id);
+    requireWithin(pose.position, distance_limit, "position", "m");
+    const Quat orientation = requireRotation(pose.orientation);
+    b.position[i] = pose.position;
+    b.orientation[i] = orientation;
+    b.updateMassProperties(i);
+    b.state().wake(i, WakeReason::changed);
+}
+
+void World::setLinearVelocity(BodyId id, const Vec3& v) {
+    const BodyIndex i = dynamicIndex(state_->bodies, id, "velocity");
+    requireWithin(v, speed_limit, "linear velocity", "m/s");
+    state_->bodies.v[i] = v;
+    state_->bodies.state().wake(i, WakeReason::changed);
+}
+
+void World::setAngularVelocity(BodyId id, const Vec3& w) {
+    const BodyIndex i = dynamicIndex(state_->bodies, id, "velocity");
+    requireWithin(w, speed_limit, "angular velocity", "rad/s");
+    state_->bodies.w[i] = w;
+    state_->bodies.state().wake(i, WakeReason::changed);
+}
+
+void World::setFixed(BodyId id, bool fixed) {
+    BodyStorage& b = state_->bodies;
+    const BodyIndex i = b.indexOf(id);
+    if (!fixed && isInfinite(b.shape[i])) {
+        throw InputError(fmt::format("a {} has no mass and stays fixed", shapeName(b.shape[i])));
+    }
+    b.state().wake(i, WakeReason::changed);
+    b.kind[i] = fixed ? BodyKind::fixed : BodyKind::dynamic;
+    b.v[i].setZero();
+    b.w[i].setZero();
+    b.motion[i] = initialMotion(state_->settings.sleep);
+    b.supports[i] = -1;
+    b.updateMassProperties(i);
+}
+
+void World::wake(BodyId id) {
+    state_->bodies.state().wake(state_->bodies.indexOf(id), WakeReason::changed);
+}
+
+void World::applyForce(BodyId id, const Vec3& force) {
+    const BodyIndex i = dynamicIndex(state_->bodies, id, "force");
+    requireWithin(force, load_limit, "force", "N");
+    state_->bodies.force[i] += force;
+    state_->bodies.state().wake(i, WakeReason::changed);
+}
+
+void World::applyForceAt(BodyId id, const Vec3& force, const Vec3& point) {
+    const BodyIndex i = dynamicIndex(state_->bodies, id, "force");
+    requireWithin(force, load_limit, "force", "N");
+    requireWithin(point, distance_limit, "point", "m");
+    state_->bodies.force[i] += force;
+    state_->bodies.torque[i] += (point - state_->bodies.position[i]).cross(force);
+    state_->bodies.state().wake(i, WakeReason::changed);
+}
+
+void World::applyTorque(BodyId id, const Vec3& torque) {
+    const BodyIndex i = dynamicIndex(state_->bodies, id, "torque");
+    requireWithin(torque, load_limit, "torque", "N·m");
+    state_->bodies.torque[i] += torque;
+    state_->bodies.state().wake(i, WakeReason::changed);
+}
+
+void World::applyImpulse(BodyId id, const Vec3& impulse) {
+    BodyStorage& b = state_->bodies;
+    const BodyIndex i = dynamicIndex(b, id, "impulse");
+    requireWithin(impulse, load_limit, "impulse", "N·s");
+    b.v[i] += impulse * b.mass_inv[i];
+    b.state().wake(i, WakeReason::changed);
+}
+
+void World::applyImpulseAt(BodyId id, const Vec3& impulse, const Vec3& point) {
+    BodyStorage& b = state_->bodies;
+    const BodyIndex i = dynamicIndex(b, id, "impulse");
+    requireWithin(point, distance_limit, "point", "m");
+    applyImpulse(id, impulse);
+    b.w[i] += b.inertiaInv_W[i] * (point - b.position[i]).cross(impulse);
+}
+
+void World::applyAngularImpulse(BodyId id, const Vec3& impulse) {
+    BodyStorage& b = state_->bodies;
+    const BodyIndex i = dynamicIndex(b, id, "impulse");
+    requireWithin(impulse, load_limit, "angular impulse", "N·m·s");
+    b.w[i] += b.inertiaInv_W[i] * impulse;
+    b.state().wake(i, WakeReason::changed);
+}
+
+void World::setConstantForce(BodyId id, const Vec3& force) {
+    const BodyIndex i = dynamicIndex(state_->bodies, id, "force");
+    requireWithin(force, load_limit, "force", "N");
+    state_->bodies.constant_force[i] = force;
+    state_->bodies.state().wake(i, WakeReason::changed);
+}
+
+void World::setConstantTorque(BodyId id, const Vec3& torque) {
+    const BodyIndex i = dynamicIndex(state_->bodies, id, "torque");
+    requireWithin(torque, load_limit, "torque", "N·m");
+    state_->bodies.constant_torque[i] = torque;
+    state_->bodies.state().wake(i, WakeReason::changed);
+}
+
+}  // namespace cairn

@@ -1,0 +1,140 @@
+/// The part of World that reports what a step did and what the state amounts to.
+#include <bit>
+
+#include "cairn/world.h"
+#include "world/world_state.h"
+
+namespace cairn {
+
+void Statistics::add(const Statistics& next) {
+    for (std::size_t i = 0; i < stage_count; ++i) stage_ms[i] += next.stage_ms[i];
+    contacts += next.contacts;
+    penetrating_contacts += next.penetrating_contacts;
+    corrected_contacts += next.corrected_contacts;
+    uncorrected_contacts += next.uncorrected_contacts;
+    displaced_bodies += next.displaced_bodies;
+    global_iterations += next.global_iterations;
+    shock_iterations += next.shock_iterations;
+    shock_batches += next.shock_batches;
+    batches += next.batches;
+    largest_batch = std::max(largest_batch, next.largest_batch);
+    asleep = next.asleep;
+    woken += next.woken;
+    largest_overlap = std::max(largest_overlap, next.largest_overlap);
+    mean_overlap = next.mean_overlap;
+}
+
+namespace {
+
+/// Mixes 64 bits so that every input bit reaches every output bit (the finaliser of splitmix64, by Vigna).
+std::uint64_t mix(std::uint64_t x) {
+    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+    return x ^ (x >> 31U);
+}
+
+void feed(std::uint64_t& hash, std::uint64_t word) {
+    hash = mix(hash + 0x9e3779b97f4a7c15U + word);
+}
+
+template <class Vector>
+void feedAll(std::uint64_t& hash, const Vector& values) {
+    // Adding zero turns −0 into +0: equal states have equal hashes.
+    for (Eigen::Index i = 0; i < values.size(); ++i) feed(hash, std::bit_cast<std::uint64_t>(values[i] + 0.0));
+}
+
+template <class Work>
+void forDynamic(const BodyStorage& bodies, const Work& work) {
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        if (bodies.kind[i] == BodyKind::dynamic) work(i);
+    }
+}
+
+/// Angular momentum about the centre of mass [N·m·s, W].
+Vec3 spin(const BodyStorage& b, BodyIndex i) {
+    return b.orientation[i] * b.inertia_B[i].cwiseProduct(b.orientation[i].conjugate() * b.w[i]);
+}
+
+}  // namespace
+
+std::vector<ContactInfo> World::contacts() const {
+    const StepData& data = state_->data;
+    std::vector<ContactInfo> infos;
+    infos.reserve(data.contacts.size());
+    for (std::size_t i = 0; i < data.contacts.size(); ++i) {
+        const Contact& c = data.contacts[i];
+        const BodyId a{c.a, data.generation[c.a]};
+        const BodyId b{c.b, data.generation[c.b]};
+        if (!contains(a) || !contains(b)) continue;
+        infos.push_back({a, b, c.point, c.normal, c.distance, c.impulse, data.batches.batch_of_contact[i]});
+    }
+    return infos;
+}
+
+std::vector<BatchInfo> World::batches() const {
+    const StepData& data = state_->data;
+    std::vector<BatchInfo> infos(data.batches.size());
+    for (std::size_t i = 0; i < infos.size(); ++i) {
+        const BatchView batch = data.batches[i];
+        infos[i].contacts = batch.contacts.size();
+        for (const BodyIndex body : batch.bodies) {
+            const BodyId id{body, data.generation[body]};
+            if (contains(id)) infos[i].bodies.push_back(id);
+        }
+    }
+    return infos;
+}
+
+const Statistics& World::statistics() const {
+    return state_->statistics;
+}
+
+const std::vector<FaultInfo>& World::faults() const {
+    return state_->faults;
+}
+
+double World::kineticEnergy() const {
+    const BodyStorage& b = state_->bodies;
+    double energy = 0;
+    forDynamic(b, [&](BodyIndex i) { energy += 0.5 * (b.mass[i] * b.v[i].squaredNorm() + b.w[i].dot(spin(b, i))); });
+    return energy;
+}
+
+double World::potentialEnergy() const {
+    const BodyStorage& b = state_->bodies;
+    const Vec3 acceleration = state_->gravity + state_->global_acceleration;
+    double energy = 0;
+    forDynamic(b, [&](BodyIndex i) { energy -= b.mass[i] * acceleration.dot(b.position[i]); });
+    return energy;
+}
+
+Vec3 World::linearMomentum() const {
+    const BodyStorage& b = state_->bodies;
+    Vec3 momentum = Vec3::Zero();
+    forDynamic(b, [&](BodyIndex i) { momentum += b.mass[i] * b.v[i]; });
+    return momentum;
+}
+
+Vec3 World::angularMomentum() const {
+    const BodyStorage& b = state_->bodies;
+    Vec3 momentum = Vec3::Zero();
+    forDynamic(b, [&](BodyIndex i) { momentum += spin(b, i) + b.position[i].cross(b.mass[i] * b.v[i]); });
+    return momentum;
+}
+
+std::uint64_t World::stateHash() const {
+    const BodyStorage& b = state_->bodies;
+    std::uint64_t hash = 0;
+    for (BodyIndex i = 0; i < b.slots(); ++i) {
+        if (b.kind[i] == BodyKind::hole) continue;
+        feed(hash, (std::uint64_t{i} << 32U) | b.generation[i]);
+        feedAll(hash, b.position[i]);
+        feedAll(hash, b.orientation[i].coeffs());
+        feedAll(hash, b.v[i]);
+        feedAll(hash, b.w[i]);
+        feed(hash, std::uint64_t{b.asleep[i]});
+    }
+    return hash;
+}
+
+}  // namespace cairn

@@ -1,0 +1,71 @@
+/// @file Everything a world holds: the bodies with what acts on them, and every array between the stages of a step.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "batches/batches.h"
+#include "body/body_storage.h"
+#include "body/contact.h"
+#include "body/material_table.h"
+#include "broad_phase/broad_phase.h"
+#include "cairn/world.h"
+#include "correction/correction.h"
+#include "geometry/geometry.h"
+#include "integration/springs.h"
+#include "parallel/executor.h"
+#include "resolution/resolution.h"
+
+namespace cairn {
+
+/// The arrays that one stage leaves to the next; nothing else travels between stages. Named with their producer.
+struct StepData {
+    std::vector<Bounds> bounds;                         ///< detection: [slots] grown by the contact margin [m, W]
+    std::vector<BodyPair> pairs;                        ///< detection: near pairs, sorted
+    std::vector<std::vector<Contact>> thread_contacts;  ///< detection: [threads], joined into contacts
+    std::vector<Contact> contacts;        ///< detection, changed by correction and resolution: sorted by (a, b)
+    ContactsOfBodies contacts_of;         ///< batches: [slots] contact indices
+    Batches batches;                      ///< batches: groups in canonical order
+    BatchScratch batch_scratch;           ///< batches: kept memory
+    std::vector<std::uint32_t> schedule;  ///< batches: order of work, large ones first
+    std::size_t large_batches = 0;        ///< batches: how many of the schedule are large
+    std::vector<std::int32_t> supports;   ///< velocities: [slots] contacts in the direction of gravity
+    std::vector<CorrectionCounts> correction_counts;  ///< correction: [threads]
+    std::vector<ResolutionCounts> resolution_counts;  ///< resolution: [threads]
+    std::vector<std::uint32_t> generation;  ///< output: [slots] generations of the bodies that the contacts name
+};
+
+/// The back of World.
+struct WorldState {
+    explicit WorldState(const Settings& settings);
+
+    /// Makes the replaceable parts that the settings name. @pre the settings are valid
+    void applySettings(const Settings& new_settings);
+
+    Settings settings;
+    Executor executor;
+    std::unique_ptr<BroadPhase> broad_phase;
+    std::vector<std::unique_ptr<Correction>> corrections;  ///< [threads]
+    std::vector<std::unique_ptr<Resolution>> resolutions;  ///< [threads]
+
+    MaterialTable materials;
+    BodyStorage bodies;
+    std::vector<Spring> springs;
+    Vec3 gravity = Vec3::Zero();              ///< [m/s², W]
+    Vec3 global_acceleration = Vec3::Zero();  ///< [m/s², W]
+    bool forces_changed = false;              ///< a global acceleration changed since the last step
+
+    std::int64_t steps = 0;
+    double time = 0;                  ///< [s]
+    std::int64_t steps_at_start = 0;  ///< step count when the present time step length began to hold
+    double time_at_start = 0;         ///< time at that step [s]
+    StepData data;
+    Statistics statistics;
+    std::vector<FaultInfo> faults;
+};
+
+/// One time step. @source thesis Algorithm 6
+void stepWorld(WorldState& world);
+
+}  // namespace cairn
