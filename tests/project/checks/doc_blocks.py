@@ -76,7 +76,7 @@ def declarations(text: str) -> list[Declaration]:
             closed = stack.pop()
             statement = ""
             if closed.head:
-                finish(line, closed.head, stack[-1], closed.line)
+                finish(line, closed.head + " {", stack[-1], closed.line)
         elif char == ";":
             finish(line, statement, inside, first)
             statement = ""
