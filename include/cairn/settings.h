@@ -25,17 +25,20 @@ enum class ResolutionKind { impulse_queue, sweep, none };
 /// Which closing contact is resolved next. @source thesis §3.6 and §5.4
 enum class ResolutionOrder { highest_closing_speed, arbitrary };
 
+/// Broad and narrow phase.
 struct DetectionSettings {
     BroadPhaseKind broad_phase = BroadPhaseKind::hash_grids;  ///< all_pairs is its slow oracle
     double contact_margin = 1e-4;  ///< contacts are reported up to this distance before touching [m], ≥ 0
 };
 
+/// Penetration correction. @source thesis §2
 struct CorrectionSettings {
     CorrectionKind correction = CorrectionKind::propagated;  ///< the algorithm, or none
     double penetration_threshold = 1.74e-3;  ///< overlap above which a contact is corrected [m]; −thr_pen of the thesis
     double remaining_penetration = 0.5;      ///< part of the threshold that a correction leaves, in (0, 1) (2.5.4)
 };
 
+/// Contact resolution and shock propagation. @source thesis §3.3–3.8
 struct ResolutionSettings {
     ResolutionKind resolution = ResolutionKind::impulse_queue;       ///< the algorithm, or none
     ResolutionOrder order = ResolutionOrder::highest_closing_speed;  ///< of ResolutionKind::impulse_queue
@@ -48,6 +51,7 @@ struct ResolutionSettings {
     std::int64_t sweeps = 50;        ///< sweeps over the contacts of ResolutionKind::sweep, ≥ 1
 };
 
+/// Sleeping. @source thesis §3.2
 struct SleepSettings {
     bool sleeping = true;              ///< off = every body stays awake
     double sleep_threshold = 8.33e-3;  ///< a body whose averaged motion is below this sleeps [m/s], < |g|Δt (3.2.5)
@@ -55,15 +59,18 @@ struct SleepSettings {
     double motion_limit = 10;          ///< the averaged motion is capped at limit·sleep_threshold, > 1 (Algorithm 5)
 };
 
+/// Velocity-dependent gravity damping. @source thesis §3.8
 struct GravityDampingSettings {
     double damping = 0.7;                ///< part of gravity taken away from slow bodies, 0 = off, ≤ 1 (Algorithm 12)
     double damping_threshold = 83.3e-3;  ///< bodies below this motion are damped [m/s]
 };
 
+/// Motion of free bodies.
 struct IntegrationSettings {
     bool gyroscopic = true;  ///< torque-free rotation keeps its angular momentum (Euler's equations)
 };
 
+/// Threads. @source thesis §4
 struct ParallelSettings {
     std::int64_t threads = 1;       ///< threads that a step uses, 1 to 1024; results do not depend on it
     std::int64_t large_batch = 32;  ///< batches with at least so many contacts are handed out one by one (§4)
