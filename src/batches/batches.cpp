@@ -1,0 +1,141 @@
+#include "batches/batches.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace cairn {
+
+namespace {
+
+constexpr std::uint32_t no_batch = UINT32_MAX;
+
+bool isDynamic(std::span<const BodyKind> kind, BodyIndex i) {
+    return kind[i] == BodyKind::dynamic;
+}
+
+/// Representative of a group, with path halving: every other body on the way is linked to its grandparent.
+BodyIndex representative(std::vector<std::uint32_t>& parent, BodyIndex i) {
+    while (parent[i] != i) {
+        parent[i] = parent[parent[i]];
+        i = parent[i];
+    }
+    return i;
+}
+
+/// A dynamic body of the contact; its batch is that of the contact.
+BodyIndex ownerOf(std::span<const BodyKind> kind, const Contact& contact) {
+    if (isDynamic(kind, contact.a)) return contact.a;
+    if (isDynamic(kind, contact.b)) return contact.b;
+    throw std::logic_error("batches: contact of bodies " + std::to_string(contact.a) + " and " +
+                           std::to_string(contact.b) + ", neither of which can move");
+}
+
+/// Turns counts in values[0 … n−1] into offsets; values[n] becomes their sum.
+void countsToOffsets(std::vector<std::uint32_t>& values) {
+    std::exclusive_scan(values.begin(), values.end(), values.begin(), std::uint32_t{0});
+}
+
+/// Joins the bodies of each contact. Each group's representative is its lowest body, since the higher of two
+/// representatives is always linked to the lower one.
+void joinBodies(std::span<const BodyKind> kind, std::span<const Contact> contacts, std::vector<std::uint32_t>& parent) {
+    parent.resize(kind.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    for (const Contact& contact : contacts) {
+        if (!isDynamic(kind, contact.a) || !isDynamic(kind, contact.b)) continue;
+        const BodyIndex p = representative(parent, contact.a);
+        const BodyIndex q = representative(parent, contact.b);
+        parent[std::max(p, q)] = std::min(p, q);
+    }
+}
+
+/// Numbers the groups that have contacts in ascending order of their lowest bodies. @return their number
+std::uint32_t numberBatches(std::span<const BodyKind> kind, std::span<const Contact> contacts, BatchScratch& scratch) {
+    // A body is in a batch if it has a contact; its number follows below.
+    constexpr std::uint32_t in_some_batch = 0;
+    auto& batch = scratch.batch_of_body;
+    batch.assign(kind.size(), no_batch);
+    for (const Contact& contact : contacts) {
+        batch[ownerOf(kind, contact)] = in_some_batch;
+        if (isDynamic(kind, contact.b)) batch[contact.b] = in_some_batch;
+    }
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+        if (batch[i] == no_batch) continue;
+        const BodyIndex lowest = representative(scratch.parent, static_cast<BodyIndex>(i));
+        batch[i] = lowest == i ? count++ : batch[lowest];
+    }
+    return count;
+}
+
+}  // namespace
+
+void buildBatches(std::span<const BodyKind> kind, std::span<const Contact> contacts, BatchScratch& scratch,
+                  Batches& batches) {
+    joinBodies(kind, contacts, scratch.parent);
+    const std::uint32_t count = numberBatches(kind, contacts, scratch);
+    const auto& batch_of_body = scratch.batch_of_body;
+
+    batches.body_begin.assign(count + 1, 0);
+    for (const std::uint32_t batch : batch_of_body) {
+        if (batch != no_batch) ++batches.body_begin[batch];
+    }
+    countsToOffsets(batches.body_begin);
+    batches.bodies.resize(batches.body_begin[count]);
+    scratch.cursor.assign(batches.body_begin.begin(), batches.body_begin.end());
+    for (std::size_t i = 0; i < batch_of_body.size(); ++i) {
+        if (batch_of_body[i] == no_batch) continue;
+        batches.bodies[scratch.cursor[batch_of_body[i]]++] = static_cast<BodyIndex>(i);
+    }
+
+    batches.contact_begin.assign(count + 1, 0);
+    batches.batch_of_contact.resize(contacts.size());
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+        batches.batch_of_contact[c] = batch_of_body[ownerOf(kind, contacts[c])];
+        ++batches.contact_begin[batches.batch_of_contact[c]];
+    }
+    countsToOffsets(batches.contact_begin);
+    batches.contacts.resize(contacts.size());
+    scratch.cursor.assign(batches.contact_begin.begin(), batches.contact_begin.end());
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+        batches.contacts[scratch.cursor[batches.batch_of_contact[c]]++] = static_cast<std::uint32_t>(c);
+    }
+}
+
+void listContacts(std::span<const BodyKind> kind, std::span<const Contact> contacts, ContactsOfBodies& of_bodies) {
+    auto& begin = of_bodies.begin;
+    begin.assign(kind.size() + 1, 0);
+    for (const Contact& contact : contacts) {
+        for (const BodyIndex body : {contact.a, contact.b}) begin[body] += isDynamic(kind, body) ? 1u : 0u;
+    }
+    countsToOffsets(begin);
+    of_bodies.contacts.resize(begin[kind.size()]);
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+        for (const BodyIndex body : {contacts[c].a, contacts[c].b}) {
+            if (isDynamic(kind, body)) of_bodies.contacts[begin[body]++] = static_cast<std::uint32_t>(c);
+        }
+    }
+    // Each begin has moved on to the begin of the next body: shift them back by one.
+    std::copy_backward(begin.begin(), begin.end() - 1, begin.end());
+    begin.front() = 0;
+}
+
+std::size_t scheduleBatches(const Batches& batches, std::size_t large, std::vector<std::uint32_t>& order) {
+    const auto contactsOf = [&](std::uint32_t i) { return batches.contact_begin[i + 1] - batches.contact_begin[i]; };
+    const auto count = static_cast<std::uint32_t>(batches.size());
+    order.clear();
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (contactsOf(i) >= large) order.push_back(i);
+    }
+    const std::size_t large_count = order.size();
+    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+        return contactsOf(i) != contactsOf(j) ? contactsOf(i) > contactsOf(j) : i < j;
+    });
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (contactsOf(i) < large) order.push_back(i);
+    }
+    return large_count;
+}
+
+}  // namespace cairn

@@ -1,0 +1,58 @@
+/// @file Hierarchical hash grids: cost linear in the number of bodies, whatever their sizes and places.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "broad_phase/broad_phase.h"
+#include "broad_phase/cell_table.h"
+#include "broad_phase/grid_levels.h"
+#include "broad_phase/pair_rows.h"
+
+namespace cairn {
+
+/// Every body lies in one cell of one level: the cell of the lower corner of its bounds. With cell(x) = ⌊x / edge⌋,
+/// which never decreases with x even when rounded, and cell(upper) ≤ cell(lower) + 1, bodies 1 and 2 of a level can
+/// only overlap if |cell(lower₁) − cell(lower₂)| ≤ 1, and a body 1 of a finer level can only overlap a body 2 if
+/// cell(lower₁) − 1 ≤ cell(lower₂) ≤ cell(upper₁), all in the cells of the coarser level 2. So each cell is compared
+/// with one half of its neighbours and with the few cells of coarser levels around it; every pair comes up once.
+///
+/// The bodies of a cell are stored side by side, dynamic ones first, so that fixed ones never meet each other.
+class HashGrids final : public BroadPhase {
+  public:
+    void findPairs(const BroadPhaseInput& input, const Executor& executor, std::vector<BodyPair>& pairs) override;
+    int level(BodyIndex body) const override;
+
+  private:
+    /// A body as the search sees it.
+    struct Entry {
+        Bounds bounds;  ///< [m, W]
+        BodyIndex body;
+    };
+    /// Bodies of a cell in entries_: dynamic ones in [begin, fixed_begin), fixed ones in [fixed_begin, end).
+    struct Cell {
+        std::uint32_t begin;
+        std::uint32_t fixed_begin;
+        std::uint32_t end;
+    };
+
+    void fillCells(const BroadPhaseInput& input);
+    void searchCells(std::size_t begin, std::size_t end, PairBuffer& found) const;
+    void searchInside(const Cell& cell, PairBuffer& found) const;
+    void searchBetween(const Cell& first, const Cell& second, PairBuffer& found) const;
+    void searchCoarser(std::size_t cell, PairBuffer& found) const;
+    void searchApart(const BroadPhaseInput& input, std::size_t begin, std::size_t end, PairBuffer& found) const;
+    static void testRow(const Entry& entry, std::span<const Entry> others, PairBuffer& found);
+
+    GridLevels levels_;
+    CellTable table_;
+    std::vector<Cell> cells_;                  ///< in the numbering of table_
+    std::vector<std::uint32_t> cell_of_body_;  ///< per slot
+    std::vector<Entry> entries_;               ///< grouped by cell
+    std::vector<BodyIndex> apart_;             ///< bodies outside the hierarchy, ascending
+    std::vector<PairBuffer> found_;            ///< [2 · workers] of the cells, then of the bodies apart
+    PairRows rows_;
+};
+
+}  // namespace cairn
