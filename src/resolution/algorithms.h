@@ -1,0 +1,13 @@
+/// @file The algorithms behind makeResolution(), one file each.
+#pragma once
+
+#include <memory>
+
+#include "resolution/resolution.h"
+
+namespace cairn {
+
+std::unique_ptr<Resolution> makeImpulseQueueResolution();  ///< in impulse_queue.cpp
+std::unique_ptr<Resolution> makeSweepResolution();         ///< in sweep.cpp
+
+}  // namespace cairn

@@ -1,0 +1,79 @@
+/// @file The impulse that resolves one contact. @source thesis §3.4, §3.5, Algorithms 8 and 11
+#pragma once
+
+#include <cmath>
+
+#include "resolution/contact_frame.h"
+
+namespace cairn {
+
+/// Kinetic friction needs K0 + β(K1·j1 + K2·j2) > 0 (3.5.8). For strongly coupled contacts with a large µk it can come
+/// close to zero or below (Painlevé's paradox) and the impulse would grow without bound or pull. Below this part of K0
+/// the contact is resolved without friction instead. With µ ≤ 1 boxes, balls and capsules stay far above it.
+inline constexpr double smallest_kinetic_denominator = 0.01;
+
+/// The impulse without friction: stops (or reverses) the normal velocity. @source thesis Algorithm 7, normal part
+inline Vec3 frictionlessImpulse(const ContactFrame& frame, double target_normal) {
+    return {target_normal / frame.k_row[0], 0, 0};
+}
+
+/// The impulse of a sliding contact. @param stick the impulse that would stop the sliding [N·s, contact coordinates]
+/// @param target_normal wanted change of the normal velocity [m/s] @source thesis (3.5.5)–(3.5.8)
+inline Vec3 slidingImpulse(const ContactFrame& frame, const Vec3& stick, double target_normal) {
+    const double beta = frame.kinetic_friction / std::sqrt(stick[1] * stick[1] + stick[2] * stick[2]);
+    const double denominator = frame.k_row[0] + beta * (frame.k_row[1] * stick[1] + frame.k_row[2] * stick[2]);
+    // Written so that a NaN takes the way out, too.
+    if (!(denominator > smallest_kinetic_denominator * frame.k_row[0]))
+        return frictionlessImpulse(frame, target_normal);
+    const double normal = target_normal / denominator;
+    const double lambda = beta * normal;
+    return {normal, lambda * stick[1], lambda * stick[2]};
+}
+
+/// The impulse on A that resolves a closing contact [N·s, contact coordinates]; B gets the opposite.
+/// @param velocity ϑA − ϑB [m/s, contact coordinates], velocity[0] < 0
+/// @param restitution_threshold closing speed below which e = 0 [m/s] @source thesis Algorithm 8 with Algorithm 11
+inline Vec3 contactImpulse(const ContactFrame& frame, const Vec3& velocity, double restitution_threshold) {
+    const double e = velocity[0] > -restitution_threshold ? 0 : frame.restitution;
+    const Vec3 target(-(1 + e) * velocity[0], -velocity[1], -velocity[2]);
+    const Vec3 j = frame.k_inv * target;
+    // The thesis's cone test is symmetric in the sign of j0. A pulling j0 inside the cone takes a coupling as strong as
+    // in Painlevé's paradox; it counts as sliding here, whose impulse always pushes.
+    const double cone = frame.static_friction * j[0];
+    if (j[0] > 0 && j[1] * j[1] + j[2] * j[2] <= cone * cone) return j;
+    return slidingImpulse(frame, j, target[0]);
+}
+
+/// How an impulse changes one body's velocities.
+struct VelocityChange {
+    Vec3 v;  ///< [m/s, W]
+    Vec3 w;  ///< [rad/s, W]
+};
+
+/// @param r from the centre of mass to the contact [m, W] @param impulse on this body [N·s, W] @source thesis (3.4.4)
+inline VelocityChange velocityChange(const LocalBody& body, const Vec3& r, const Vec3& impulse) {
+    return {body.mass_inv * impulse, body.inertia_inv * r.cross(impulse)};
+}
+
+inline void apply(const VelocityChange& change, LocalBody& body) {
+    body.v += change.v;
+    body.w += change.w;
+    body.struck = 1;
+}
+
+/// Changes of both bodies by one resolution.
+struct ContactChange {
+    VelocityChange a, b;
+};
+
+/// Applies an impulse to both bodies and adds it to the contact's sum. @param j on A [N·s, contact coordinates]
+inline ContactChange applyImpulse(ContactFrame& frame, const Vec3& j, LocalBody& a, LocalBody& b) {
+    const Vec3 impulse = frame.basis * j;
+    frame.impulse += impulse;
+    const ContactChange change{velocityChange(a, frame.r_a, impulse), velocityChange(b, frame.r_b, -impulse)};
+    apply(change.a, a);
+    apply(change.b, b);
+    return change;
+}
+
+}  // namespace cairn

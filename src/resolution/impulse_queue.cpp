@@ -1,0 +1,133 @@
+#include "resolution/impulse_queue.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "resolution/algorithms.h"
+#include "resolution/shock_propagation.h"
+
+namespace cairn {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+std::int64_t iterationLimit(double multiple, std::size_t contacts) {
+    const double limit = std::ceil(multiple * static_cast<double>(contacts));
+    if (multiple <= 0 || limit >= static_cast<double>(iteration_cap)) return iteration_cap;
+    return std::max<std::int64_t>(1, static_cast<std::int64_t>(limit));
+}
+
+void QueueSolver::begin(const BatchView& view, std::span<const Contact> contacts, const BodyState& bodies,
+                        const ResolutionSettings& settings) {
+    settings_ = settings;
+    threshold_ = -settings.resolution_threshold;
+    batch.gather(view, contacts, bodies);
+    rows.build(batch);
+    delta_.assign(batch.contacts.size(), infinity);
+}
+
+RunOutcome QueueSolver::run(std::span<const std::uint32_t> members, double iterations_per_contact) {
+    const std::int64_t limit = iterationLimit(iterations_per_contact, members.size());
+    if (settings_.order == ResolutionOrder::arbitrary) return runWith(first_entry_queue_, members, limit);
+    if (static_cast<std::int64_t>(members.size()) > settings_.queue_switch) {
+        return runWith(tournament_queue_, members, limit);
+    }
+    return runWith(array_queue_, members, limit);
+}
+
+template <class Queue>
+RunOutcome QueueSolver::runWith(Queue& queue, std::span<const std::uint32_t> members, std::int64_t limit) {
+    queue.reset(delta_, threshold_);
+    for (const std::uint32_t i : members) {
+        const ContactFrame& contact = batch.contacts[i];
+        if (isResolvable(contact)) delta_[i] = batch.velocityOf(contact)[0];
+        queue.refresh(i);
+    }
+    RunOutcome outcome;
+    for (std::uint32_t next = queue.next(); next != no_contact; next = queue.next()) {
+        if (outcome.iterations == limit) {
+            outcome.still_closing = true;
+            break;
+        }
+        outcome.iterations += resolve(queue, next);
+    }
+    for (const std::uint32_t i : members) delta_[i] = infinity;
+    return outcome;
+}
+
+/// Lines 12–23 of Algorithm 9. @return 1 if the contact was resolved, 0 if it turned out not to close
+template <class Queue>
+std::int64_t QueueSolver::resolve(Queue& queue, std::uint32_t contact) {
+    ContactFrame& frame = batch.contacts[contact];
+    LocalBody& a = batch.bodies[frame.a];
+    LocalBody& b = batch.bodies[frame.b];
+    const Vec3 velocity = relativeVelocity(frame, a, b);
+    // δ follows the velocities by adding up their changes; its rounding errors end here, where its value matters.
+    delta_[contact] = velocity[0];
+    if (!(velocity[0] < threshold_) || !std::isfinite(velocity[0])) {
+        if (!std::isfinite(velocity[0])) delta_[contact] = infinity;  // never touched again, so that it cannot spread
+        queue.refresh(contact);
+        return 0;
+    }
+    const Vec3 j = contactImpulse(frame, velocity, settings_.restitution_threshold);
+    const ContactChange change = applyImpulse(frame, j, a, b);
+
+    const auto add = [&](std::uint32_t body, const VelocityChange& body_change) {
+        const std::span<const std::uint32_t> contacts = rows.contactsOf(body);
+        const std::span<const NormalRow> body_rows = rows.rowsOf(body);
+        for (std::size_t i = 0; i < contacts.size(); ++i) delta_[contacts[i]] += body_rows[i].changeOf(body_change);
+    };
+    const auto refresh = [&](std::uint32_t body) {
+        for (const std::uint32_t i : rows.contactsOf(body)) queue.refresh(i);
+    };
+    // A body of infinite mass keeps its velocity and with it the δ of its contacts.
+    const bool a_changes = a.mass_inv > 0;
+    const bool b_changes = b.mass_inv > 0;
+    if (a_changes) add(frame.a, change.a);
+    if (b_changes) add(frame.b, change.b);
+    // Only now, with contacts of both bodies complete, may the queue look at δ.
+    if (a_changes) refresh(frame.a);
+    if (b_changes) refresh(frame.b);
+    return 1;
+}
+
+namespace {
+
+/// Algorithm 9 for the whole batch, then Algorithm 10 if that was not enough.
+class ImpulseQueueResolution final : public Resolution {
+  public:
+    ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
+                             const ResolutionSettings& settings) override {
+        ResolutionCounts counts;
+        solver_.begin(batch, contacts, bodies, settings);
+        all_.resize(batch.contacts.size());
+        std::iota(all_.begin(), all_.end(), 0U);
+        const RunOutcome outcome = solver_.run(all_, settings.global_iterations);
+        counts.global_iterations = outcome.iterations;
+        if (outcome.still_closing && settings.shock_propagation) {
+            const ShockOutcome shock = shock_propagation_.run(solver_, settings.shock_iterations);
+            counts.shock_iterations = shock.iterations;
+            counts.shock_batches = shock.stages > 0 ? 1 : 0;
+        }
+        solver_.batch.scatter(batch, contacts, bodies);
+        return counts;
+    }
+
+  private:
+    QueueSolver solver_;
+    ShockPropagation shock_propagation_;
+    std::vector<std::uint32_t> all_;
+};
+
+}  // namespace
+
+std::unique_ptr<Resolution> makeImpulseQueueResolution() {
+    return std::make_unique<ImpulseQueueResolution>();
+}
+
+}  // namespace cairn

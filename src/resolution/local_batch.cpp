@@ -1,0 +1,64 @@
+#include "resolution/local_batch.h"
+
+namespace cairn {
+
+namespace {
+
+constexpr std::uint32_t none = UINT32_MAX;
+
+LocalBody copyOf(BodyIndex slot, const BodyState& state) {
+    LocalBody body;
+    body.v = state.v[slot];
+    body.w = state.w[slot];
+    body.inertia_inv = Symmetric3::from(state.inertiaInv_W[slot]);
+    body.mass_inv = state.mass_inv[slot];
+    body.slot = slot;
+    return body;
+}
+
+}  // namespace
+
+std::uint32_t LocalBatch::localIndex(BodyIndex slot, const BodyState& state) {
+    std::uint32_t& local = local_of_slot_[slot];
+    if (local == none) {
+        local = static_cast<std::uint32_t>(bodies.size());
+        bodies.push_back(copyOf(slot, state));
+    }
+    return local;
+}
+
+void LocalBatch::gather(const BatchView& batch, std::span<const Contact> all_contacts, const BodyState& state) {
+    if (local_of_slot_.size() < state.size()) local_of_slot_.resize(state.size(), none);
+    bodies.clear();
+    for (const BodyIndex slot : batch.bodies) localIndex(slot, state);
+    dynamic_bodies = bodies.size();
+    contacts.resize(batch.contacts.size());
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        const Contact& contact = all_contacts[batch.contacts[i]];
+        ContactFrame& frame = contacts[i];
+        frame.a = localIndex(contact.a, state);
+        frame.b = localIndex(contact.b, state);
+        frame.basis = contactBasis(contact.normal);
+        frame.r_a = contact.point - state.position[contact.a];
+        frame.r_b = contact.point - state.position[contact.b];
+        frame.restitution = contact.restitution;
+        frame.static_friction = contact.static_friction;
+        frame.kinetic_friction = contact.kinetic_friction;
+        frame.impulse.setZero();
+        updateCollisionMatrixOf(frame);
+    }
+    for (const LocalBody& body : bodies) local_of_slot_[body.slot] = none;
+}
+
+void LocalBatch::scatter(const BatchView& batch, std::span<Contact> all_contacts, const BodyState& state) const {
+    for (std::size_t i = 0; i < dynamic_bodies; ++i) {
+        const LocalBody& body = bodies[i];
+        if (body.struck == 0) continue;
+        state.wake(body.slot, WakeReason::struck);
+        state.v[body.slot] = body.v;
+        state.w[body.slot] = body.w;
+    }
+    for (std::size_t i = 0; i < contacts.size(); ++i) all_contacts[batch.contacts[i]].impulse += contacts[i].impulse;
+}
+
+}  // namespace cairn

@@ -1,0 +1,35 @@
+/// @file A batch gathered into dense arrays: bodies and contacts get local indices, ascending as in the batch.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "resolution/contact_frame.h"
+#include "resolution/resolution.h"
+
+namespace cairn {
+
+/// Works on copies: masses may be changed here (shock propagation) without touching those of the world.
+class LocalBatch {
+  public:
+    std::vector<LocalBody> bodies;       ///< the batch's dynamic bodies, then the fixed bodies they touch
+    std::vector<ContactFrame> contacts;  ///< in the batch's order
+    std::size_t dynamic_bodies = 0;      ///< bodies[i] is dynamic for i below this
+
+    /// Initialises bodies and contacts (lines 2–4 of Algorithm 9). Keeps its memory between calls.
+    void gather(const BatchView& batch, std::span<const Contact> all_contacts, const BodyState& state);
+    /// Writes back velocities and impulses, and wakes the bodies that were struck (wake condition 3 of thesis §3.2).
+    void scatter(const BatchView& batch, std::span<Contact> all_contacts, const BodyState& state) const;
+
+    bool isFixed(std::uint32_t body) const { return body >= dynamic_bodies; }
+    Vec3 velocityOf(const ContactFrame& c) const { return relativeVelocity(c, bodies[c.a], bodies[c.b]); }
+    void updateCollisionMatrixOf(ContactFrame& c) const { updateCollisionMatrix(c, bodies[c.a], bodies[c.b]); }
+
+  private:
+    std::uint32_t localIndex(BodyIndex slot, const BodyState& state);
+
+    std::vector<std::uint32_t> local_of_slot_;  ///< [slots] of the world; `none` outside of gather()
+};
+
+}  // namespace cairn

@@ -1,0 +1,32 @@
+#include "resolution/resolution.h"
+
+#include "resolution/algorithms.h"
+
+namespace cairn {
+
+namespace {
+
+/// Leaves everything as it is: bodies fall through each other.
+class NoResolution final : public Resolution {
+  public:
+    ResolutionCounts resolve(const BatchView&, std::span<Contact>, const BodyState&,
+                             const ResolutionSettings&) override {
+        return {};
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<Resolution> makeResolution(ResolutionKind kind) {
+    switch (kind) {
+        case ResolutionKind::impulse_queue:
+            return makeImpulseQueueResolution();
+        case ResolutionKind::sweep:
+            return makeSweepResolution();
+        case ResolutionKind::none:
+            break;
+    }
+    return std::make_unique<NoResolution>();
+}
+
+}  // namespace cairn
