@@ -1,11 +1,14 @@
 #include "parallel/executor.h"
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <vector>
 
 #ifdef _OPENMP
 #include <omp.h>
+#else
+#include <thread>
 #endif
 
 namespace cairn {
@@ -15,7 +18,32 @@ namespace {
 /// Below this many items a parallel region costs more than it saves.
 constexpr std::size_t serial_limit = 64;
 
-/// Keeps the first exception of each thread; OpenMP regions must not leak exceptions.
+#ifdef _OPENMP
+
+/// Runs a function once on each of several threads.
+template <class Work>
+void onThreads(int threads, const Work& work) {
+#pragma omp parallel num_threads(threads)
+    {
+        // Fewer threads than asked for may be given; the rest of the shares is then done by those there are.
+        for (int t = omp_get_thread_num(); t < threads; t += omp_get_num_threads()) work(t);
+    }
+}
+
+#else
+
+/// Without OpenMP (which the thread sanitizer does not understand) every loop starts its own threads.
+template <class Work>
+void onThreads(int threads, const Work& work) {
+    std::vector<std::thread> team;
+    for (int t = 1; t < threads; ++t) team.emplace_back([&work, t] { work(t); });
+    work(0);
+    for (std::thread& thread : team) thread.join();
+}
+
+#endif
+
+/// Keeps the first exception of each thread; parallel regions must not leak exceptions.
 class Failures {
   public:
     explicit Failures(int threads) : failures_(static_cast<std::size_t>(threads)) {}
@@ -53,12 +81,11 @@ void Executor::forBlocks(std::size_t count, const std::function<void(std::size_t
     }
     Failures failures(threads_);
     const auto blocks = static_cast<std::size_t>(threads_);
-#pragma omp parallel for schedule(static, 1) num_threads(threads_)
-    for (int t = 0; t < threads_; ++t) {
+    onThreads(threads_, [&](int t) {
         const std::size_t begin = count * static_cast<std::size_t>(t) / blocks;
         const std::size_t end = count * (static_cast<std::size_t>(t) + 1) / blocks;
         failures.guard(t, [&] { work(begin, end, t); });
-    }
+    });
     failures.rethrow();
 }
 
@@ -68,16 +95,10 @@ void Executor::forEachDynamic(std::size_t count, const std::function<void(std::s
         return;
     }
     Failures failures(threads_);
-    const auto items = static_cast<std::ptrdiff_t>(count);
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads_)
-    for (std::ptrdiff_t i = 0; i < items; ++i) {
-#ifdef _OPENMP
-        const int thread = omp_get_thread_num();
-#else
-        const int thread = 0;
-#endif
-        failures.guard(thread, [&] { work(static_cast<std::size_t>(i), thread); });
-    }
+    std::atomic<std::size_t> next = 0;
+    onThreads(threads_, [&](int t) {
+        for (std::size_t i = next++; i < count; i = next++) failures.guard(t, [&] { work(i, t); });
+    });
     failures.rethrow();
 }
 

@@ -8,7 +8,7 @@
 namespace cairn {
 
 /// Runs loops on a given number of threads. Exceptions thrown by work items are rethrown after the loop (the one of
-/// the lowest item).
+/// the lowest thread).
 class Executor {
   public:
     /// @param threads 1 or more

@@ -1,0 +1,94 @@
+#include "body/body_storage.h"
+
+#include <gtest/gtest.h>
+
+#include "body/material_table.h"
+
+namespace cairn {
+namespace {
+
+TEST(BodyStorage, StaleIdIsRefusedAndNeverNamesTheBodyThatTookTheSlot) {
+    BodyStorage bodies;
+    const BodyId first = bodies.idOf(bodies.allocate(BodyKind::dynamic));
+    bodies.release(first.index);
+    EXPECT_THROW(bodies.indexOf(first), StaleIdError);
+    const BodyId second = bodies.idOf(bodies.allocate(BodyKind::dynamic));
+    EXPECT_EQ(second.index, first.index);
+    EXPECT_NE(second, first);
+    EXPECT_FALSE(bodies.contains(first));
+    EXPECT_EQ(bodies.indexOf(second), second.index);
+    EXPECT_THROW(bodies.indexOf(BodyId{}), StaleIdError);
+}
+
+TEST(BodyStorage, LowestHoleIsFilledFirst) {
+    BodyStorage bodies;
+    for (int i = 0; i < 5; ++i) bodies.allocate(BodyKind::dynamic);
+    bodies.release(3);
+    bodies.release(1);
+    bodies.release(4);
+    EXPECT_EQ(bodies.allocate(BodyKind::dynamic), 1U);
+    EXPECT_EQ(bodies.allocate(BodyKind::dynamic), 3U);
+    EXPECT_EQ(bodies.allocate(BodyKind::dynamic), 4U);
+    EXPECT_EQ(bodies.allocate(BodyKind::dynamic), 5U);
+    EXPECT_EQ(bodies.count(), 6U);
+}
+
+TEST(BodyStorage, AReusedSlotStartsFresh) {
+    BodyStorage bodies;
+    const BodyIndex i = bodies.allocate(BodyKind::dynamic);
+    bodies.v[i] = bodies.constant_force[i] = Vec3(1, 2, 3);
+    bodies.asleep[i] = 1;
+    bodies.supports[i] = 7;
+    bodies.release(i);
+    ASSERT_EQ(bodies.allocate(BodyKind::fixed), i);
+    EXPECT_EQ(bodies.v[i], Vec3::Zero());
+    EXPECT_EQ(bodies.constant_force[i], Vec3::Zero());
+    EXPECT_EQ(bodies.asleep[i], 0);
+    EXPECT_EQ(bodies.supports[i], -1);
+}
+
+TEST(BodyStorage, FixedBodiesHaveNoInverseMass) {
+    BodyStorage bodies;
+    const BodyIndex i = bodies.allocate(BodyKind::dynamic);
+    bodies.mass[i] = 4;
+    bodies.inertia_B[i] = Vec3(1, 2, 8);
+    bodies.orientation[i] = Quat(Eigen::AngleAxisd(1.5707963267948966, Vec3::UnitZ()));
+    bodies.updateMassProperties(i);
+    EXPECT_DOUBLE_EQ(bodies.mass_inv[i], 0.25);
+    // A quarter turn about z swaps the moments about x and y.
+    EXPECT_TRUE(bodies.inertiaInv_W[i].isApprox(Mat3(Vec3(0.5, 1, 0.125).asDiagonal()), 1e-12));
+    bodies.kind[i] = BodyKind::fixed;
+    bodies.updateMassProperties(i);
+    EXPECT_EQ(bodies.mass_inv[i], 0);
+    EXPECT_TRUE(bodies.inertiaInv_W[i].isZero(0));
+}
+
+TEST(MaterialTable, PairsAreSymmetricAndSurviveLaterMaterials) {
+    MaterialTable table;
+    const MaterialId oak = table.add({"oak", 800});
+    const MaterialId iron = table.add({"iron", 7874});
+    table.setPair(iron, oak, {.restitution = 0.5, .static_friction = 0.4, .kinetic_friction = 0.3});
+    table.add({"granite", 2800});
+    EXPECT_EQ(table.pair(0, 1).restitution, 0.5);
+    EXPECT_EQ(table.pair(1, 0).restitution, 0.5);
+    EXPECT_EQ(table.pair(0, 2).restitution, PairProperties{}.restitution);
+    table.setDefault({.restitution = 0, .static_friction = 1, .kinetic_friction = 1});
+    EXPECT_EQ(table.pair(2, 2).static_friction, 1);
+    EXPECT_EQ(table.pair(0, 1).static_friction, 0.4);
+}
+
+TEST(MaterialTable, BadPropertiesAreRefusedWithTheReason) {
+    MaterialTable table;
+    table.add({"oak", 800});
+    EXPECT_THROW(table.add({"oak", 700}), InputError);
+    EXPECT_THROW(table.add({"", 700}), InputError);
+    EXPECT_THROW(table.add({"air", 0}), InputError);
+    EXPECT_THROW(table.add({"void", std::nan("")}), InputError);
+    EXPECT_THROW(table.setDefault({.restitution = 1.1}), InputError);
+    EXPECT_THROW(table.setDefault({.restitution = 0, .static_friction = 0.2, .kinetic_friction = 0.3}), InputError);
+    EXPECT_THROW(table.setDefault({.static_friction = -1, .kinetic_friction = -1}), InputError);
+    EXPECT_THROW(table.setPair(MaterialId{0}, MaterialId{5}, {}), InputError);
+}
+
+}  // namespace
+}  // namespace cairn

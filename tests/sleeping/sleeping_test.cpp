@@ -1,0 +1,178 @@
+#include "sleeping/sleeping.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace cairn {
+namespace {
+
+const Executor one_thread(1);
+constexpr double time_step = 1.0 / 240;
+
+/// Bodies with what the sleeping system looks at; all dynamic, unit mass and inertia.
+struct Fixture {
+    explicit Fixture(std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const BodyIndex body = bodies.allocate(BodyKind::dynamic);
+            bodies.mass[body] = 1;
+            bodies.inertia_B[body] = Vec3::Ones();
+            bodies.r_max[body] = 0.5;
+            bodies.updateMassProperties(body);
+        }
+    }
+
+    void connect() {
+        of_bodies.begin.assign(bodies.slots() + 1, 0);
+        of_bodies.contacts.clear();
+        for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+            for (std::uint32_t c = 0; c < contacts.size(); ++c) {
+                if (contacts[c].a == i || contacts[c].b == i) of_bodies.contacts.push_back(c);
+            }
+            of_bodies.begin[i + 1] = static_cast<std::uint32_t>(of_bodies.contacts.size());
+        }
+    }
+
+    std::vector<std::int32_t> supports(const Vec3& acceleration) {
+        connect();
+        std::vector<std::int32_t> result(bodies.slots());
+        countSupports(bodies.kind, contacts, of_bodies, acceleration, one_thread, result);
+        return result;
+    }
+
+    void sleep(const SleepSettings& settings) {
+        fallAsleep(bodies.state(), {bodies.motion, bodies.r_max, bodies.constant_force, bodies.constant_torque},
+                   settings, time_step, one_thread);
+    }
+
+    BodyStorage bodies;
+    std::vector<Contact> contacts;
+    ContactsOfBodies of_bodies;
+};
+
+const Vec3 gravity(0, 0, -10);
+
+TEST(Supports, Figure17aPileOfThreeSpheres) {
+    // Two spheres beside each other on the ground, a third on top of both.
+    Fixture s(4);
+    s.bodies.kind[0] = BodyKind::fixed;
+    const Vec3 up = Vec3::UnitZ();
+    const Vec3 slanted_left = Vec3(-0.5, 0, -0.866).normalized();  // from the top sphere down to the left one
+    const Vec3 slanted_right = Vec3(0.5, 0, -0.866).normalized();
+    s.contacts = {{.a = 0, .b = 1, .normal = -up},
+                  {.a = 0, .b = 2, .normal = -up},
+                  {.a = 1, .b = 2, .normal = -Vec3::UnitX()},
+                  {.a = 1, .b = 3, .normal = slanted_left},
+                  {.a = 2, .b = 3, .normal = slanted_right}};
+    EXPECT_EQ(s.supports(gravity), (std::vector<std::int32_t>{0, 1, 1, 2}));
+    EXPECT_EQ(s.supports(-gravity), (std::vector<std::int32_t>{0, 1, 1, 0}));
+    EXPECT_EQ(s.supports(Vec3::Zero()), (std::vector<std::int32_t>{0, 0, 0, 0}));
+}
+
+TEST(Supports, AWallBesideABodyIsNoSupportInSpiteOfRounding) {
+    Fixture s(2);
+    s.bodies.kind[0] = BodyKind::fixed;
+    s.contacts = {{.a = 0, .b = 1, .normal = Vec3(1, 0, 1e-9).normalized()}};
+    EXPECT_EQ(s.supports(gravity)[1], 0);
+}
+
+TEST(Waking, LosingOneOfTwoSupportsWakes) {
+    Fixture s(1);
+    s.bodies.asleep[0] = 1;
+    wakeUnsupported(s.bodies.state(), std::vector<std::int32_t>{2}, std::vector<std::int32_t>{1}, one_thread);
+    EXPECT_EQ(s.bodies.asleep[0], 0);
+    EXPECT_EQ(s.bodies.woken[0], WakeReason::support_lost);
+}
+
+TEST(Waking, HavingNoSupportWakesEvenWithoutHistory) {
+    Fixture s(2);
+    s.bodies.asleep[0] = s.bodies.asleep[1] = 1;
+    wakeUnsupported(s.bodies.state(), std::vector<std::int32_t>{-1, 0}, std::vector<std::int32_t>{0, 0}, one_thread);
+    EXPECT_EQ(s.bodies.woken[0], WakeReason::floating);
+    EXPECT_EQ(s.bodies.woken[1], WakeReason::floating);
+}
+
+TEST(Waking, ANeighbourThatMovesAwaySidewaysDoesNotWake) {
+    Fixture s(3);
+    s.bodies.kind[0] = BodyKind::fixed;
+    s.bodies.asleep[1] = 1;
+    s.contacts = {{.a = 0, .b = 1, .normal = -Vec3::UnitZ()}, {.a = 1, .b = 2, .normal = Vec3::UnitX()}};
+    const auto before = s.supports(gravity);
+    s.contacts.pop_back();
+    wakeUnsupported(s.bodies.state(), before, s.supports(gravity), one_thread);
+    EXPECT_EQ(s.bodies.asleep[1], 1);
+}
+
+TEST(Waking, KeepingOrGainingSupportsDoesNotWake) {
+    Fixture s(2);
+    s.bodies.asleep[0] = s.bodies.asleep[1] = 1;
+    wakeUnsupported(s.bodies.state(), std::vector<std::int32_t>{2, 1}, std::vector<std::int32_t>{2, 3}, one_thread);
+    EXPECT_EQ(s.bodies.asleep[0], 1);
+    EXPECT_EQ(s.bodies.asleep[1], 1);
+}
+
+TEST(FallingAsleep, FollowsAlgorithm5) {
+    Fixture s(1);
+    SleepSettings settings;
+    settings.sleep_threshold = 0.01;
+    settings.motion_bias = 0.5;
+    settings.motion_limit = 3;
+    s.bodies.motion[0] = 4e-4;
+    s.bodies.v[0] = Vec3(0.003, 0, 0.004);
+    s.bodies.w[0] = Vec3(0, 0.006, 0.008);
+    // m² = 2 (0.005² + 0.01²·0.5²) = 1e-4; rwa = 0.5·4e-4 + 0.5·1e-4
+    s.sleep(settings);
+    EXPECT_DOUBLE_EQ(s.bodies.motion[0], 2.5e-4);
+    EXPECT_EQ(s.bodies.asleep[0], 0);
+
+    s.bodies.v[0] = Vec3::Zero();
+    s.bodies.w[0] = Vec3::Zero();
+    s.sleep(settings);
+    EXPECT_DOUBLE_EQ(s.bodies.motion[0], 1.25e-4);
+    EXPECT_EQ(s.bodies.asleep[0], 0);
+    s.bodies.v[0] = Vec3(1e-3, 0, 0);
+    s.sleep(settings);
+    EXPECT_EQ(s.bodies.asleep[0], 1);
+    EXPECT_EQ(s.bodies.v[0], Vec3::Zero());
+    EXPECT_DOUBLE_EQ(s.bodies.motion[0], 1e-4);
+}
+
+TEST(FallingAsleep, TheAverageIsCappedSoThatASuddenStopIsNotForgottenTooLate) {
+    Fixture s(1);
+    SleepSettings settings;
+    settings.sleep_threshold = 0.01;
+    settings.motion_limit = 3;
+    s.bodies.v[0] = Vec3(100, 0, 0);
+    s.sleep(settings);
+    EXPECT_DOUBLE_EQ(s.bodies.motion[0], 9e-4);
+}
+
+TEST(FallingAsleep, AWokenBodySleepsAgainAtOnceIfAndOnlyIfItBarelyMoves) {
+    SleepSettings settings;
+    for (const double part : {0.99, 1.01}) {
+        Fixture s(1);
+        s.bodies.motion[0] = settings.sleep_threshold * settings.sleep_threshold;
+        s.bodies.v[0] = Vec3(part * settings.sleep_threshold / std::sqrt(2.0), 0, 0);
+        s.sleep(settings);
+        EXPECT_EQ(s.bodies.asleep[0], part < 1 ? 1 : 0) << part;
+    }
+}
+
+TEST(FallingAsleep, AConstantForceTooWeakToShowInOneStepKeepsABodyAwake) {
+    SleepSettings settings;
+    Fixture s(2);
+    s.bodies.constant_force[0] = Vec3(0.1, 0, 0);
+    s.sleep(settings);
+    EXPECT_EQ(s.bodies.asleep[0], 0);
+    EXPECT_EQ(s.bodies.asleep[1], 1);
+}
+
+TEST(FallingAsleep, FixedBodiesAreLeftAlone) {
+    Fixture s(1);
+    s.bodies.kind[0] = BodyKind::fixed;
+    s.sleep(SleepSettings{});
+    EXPECT_EQ(s.bodies.asleep[0], 0);
+}
+
+}  // namespace
+}  // namespace cairn

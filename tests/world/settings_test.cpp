@@ -1,0 +1,122 @@
+#include "cairn/settings.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace cairn {
+namespace {
+
+TEST(Presets, PerformanceIsTheTableOfTheThesis) {
+    const Settings s = Settings::preset(Preset::performance);
+    EXPECT_EQ(s.steps_per_second, 240);
+    EXPECT_EQ(s.correction.penetration_threshold, 1.74e-3);
+    EXPECT_EQ(s.sleep.sleep_threshold, 8.33e-3);
+    EXPECT_EQ(s.resolution.resolution_threshold, 83.4e-6);
+    EXPECT_EQ(s.resolution.restitution_threshold, 45.8e-3);
+    EXPECT_EQ(s.resolution.global_iterations, 2);
+    EXPECT_TRUE(s.resolution.shock_propagation);
+    EXPECT_EQ(s.resolution.shock_iterations, 6);
+    EXPECT_EQ(s.gravity_damping.damping, 0.7);
+    EXPECT_EQ(s.gravity_damping.damping_threshold, 83.3e-3);
+}
+
+TEST(Presets, AccuracyIsTheTableOfTheThesis) {
+    const Settings s = Settings::preset(Preset::accuracy);
+    EXPECT_EQ(s.steps_per_second, 960);
+    EXPECT_EQ(s.correction.penetration_threshold, 0.1e-3);
+    EXPECT_EQ(s.sleep.sleep_threshold, 0.52e-3);
+    EXPECT_EQ(s.resolution.resolution_threshold, 5.2e-6);
+    EXPECT_EQ(s.resolution.restitution_threshold, 11.5e-3);
+    EXPECT_EQ(s.resolution.global_iterations, 0);
+    EXPECT_FALSE(s.resolution.shock_propagation);
+    EXPECT_EQ(s.gravity_damping.damping, 0);
+}
+
+TEST(Presets, SpeedThresholdsFollowGravityAndTimeStep) {
+    const Settings slow = Settings::preset(Preset::performance, 60, 5);
+    EXPECT_DOUBLE_EQ(slow.sleep.sleep_threshold, 8.33e-3 * 4 / 2);
+    EXPECT_DOUBLE_EQ(slow.resolution.restitution_threshold, 45.8e-3 * 2);
+    EXPECT_EQ(slow.correction.penetration_threshold, 1.74e-3);
+    for (const double steps : {30.0, 60.0, 240.0, 960.0, 1e6}) {
+        for (const double g : {0.01, 1.62, 9.81, 10.0, 274.0}) {
+            for (const Preset preset : {Preset::performance, Preset::accuracy}) {
+                EXPECT_NO_THROW(validate(Settings::preset(preset, steps, g), Vec3(0, 0, -g)));
+            }
+        }
+    }
+    EXPECT_THROW(Settings::preset(Preset::performance, 29), InputError);
+    EXPECT_THROW(Settings::preset(Preset::performance, std::nan("")), InputError);
+    EXPECT_THROW(Settings::preset(Preset::performance, 240, -1), InputError);
+}
+
+TEST(Fields, NamesAreUniqueAndEveryFieldReadsAndWrites) {
+    std::set<std::string_view> names;
+    for (const SettingField& field : settingFields()) {
+        EXPECT_TRUE(names.insert(field.name).second) << field.name;
+        EXPECT_FALSE(field.meaning.empty()) << field.name;
+        Settings s = Settings::preset(Preset::performance);
+        const SettingValue value = getField(s, field.name);
+        EXPECT_NO_THROW(setField(s, field.name, value)) << field.name;
+        EXPECT_EQ(getField(s, field.name), value) << field.name;
+    }
+}
+
+TEST(Fields, TextIsConvertedToTheFieldsType) {
+    Settings s;
+    setFieldFromText(s, "sleep_threshold", "0.004");
+    EXPECT_EQ(s.sleep.sleep_threshold, 0.004);
+    setFieldFromText(s, "threads", "3");
+    EXPECT_EQ(s.parallel.threads, 3);
+    setFieldFromText(s, "sleeping", "off");
+    EXPECT_FALSE(s.sleep.sleeping);
+    setFieldFromText(s, "resolution", "sweep");
+    EXPECT_EQ(s.resolution.resolution, ResolutionKind::sweep);
+    setField(s, "damping", std::int64_t{0});
+    EXPECT_EQ(s.gravity_damping.damping, 0);
+}
+
+/// The message of the error that setting a field gives, or nothing.
+std::string refusal(std::string_view name, std::string_view text) {
+    Settings s;
+    try {
+        setFieldFromText(s, name, text);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Fields, BadValuesAreRefusedWithWhatIsAllowed) {
+    EXPECT_NE(refusal("nonsense", "1").find("steps_per_second"), std::string::npos);
+    EXPECT_NE(refusal("threads", "0").find("within 1 and 1024"), std::string::npos);
+    EXPECT_NE(refusal("threads", "1.5").find("whole number"), std::string::npos);
+    EXPECT_NE(refusal("penetration_threshold", "0").find("above 0"), std::string::npos);
+    EXPECT_NE(refusal("penetration_threshold", "nan"), "");
+    EXPECT_NE(refusal("penetration_threshold", "inf"), "");
+    EXPECT_NE(refusal("penetration_threshold", "1e-3m"), "");
+    EXPECT_NE(refusal("remaining_penetration", "1"), "");
+    EXPECT_NE(refusal("sleeping", "maybe").find("true or false"), std::string::npos);
+    EXPECT_NE(refusal("order", "random").find("highest_closing_speed, arbitrary"), std::string::npos);
+    EXPECT_NE(refusal("steps_per_second", "10"), "");
+}
+
+TEST(Validation, ASleepThresholdThatGravityCannotBeatIsRefused) {
+    Settings s = Settings::preset(Preset::performance);
+    s.sleep.sleep_threshold = 10.0 / 240;
+    EXPECT_THROW(validate(s, Vec3(0, 0, -10)), InputError);
+    EXPECT_NO_THROW(validate(s, Vec3::Zero()));
+    s.sleep.sleeping = false;
+    EXPECT_NO_THROW(validate(s, Vec3(0, 0, -10)));
+}
+
+TEST(Validation, DampingThatLetsBodiesSleepInTheAirIsRefused) {
+    Settings s = Settings::preset(Preset::performance);
+    s.gravity_damping.damping = 0.95;
+    EXPECT_THROW(validate(s, Vec3(0, 0, -10)), InputError);
+    EXPECT_THROW(validate(s, Vec3(0, 0, std::nan(""))), InputError);
+}
+
+}  // namespace
+}  // namespace cairn
