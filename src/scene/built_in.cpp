@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <functional>
+
+#include "scene/built_in_tools.h"
+
+namespace cairn {
+namespace {
+
+/// A number in a built-in scene's name.
+struct Parameter {
+    std::string_view meaning;
+    int minimum;
+    int maximum;
+    int fallback;  ///< value if it is not given; 0 = it must be given
+};
+
+/// A row of the table of built-in scenes.
+struct Entry {
+    BuiltInScene scene;
+    std::size_t parameter_count;
+    std::array<Parameter, 2> parameters;
+    Scene (*make)(std::string name, std::array<int, 2> numbers);
+
+    std::string_view family() const { return scene.name.substr(0, scene.name.find(':')); }
+};
+
+using Numbers = std::array<int, 2>;
+
+constexpr std::array<Entry, 13> entries = {{
+    {{"stacks5", "five walls of 55 boxes, hit by an iron ball (thesis §5.1)", "stacks5"},
+     0,
+     {},
+     [](std::string name, Numbers) { return stacksScene(std::move(name), 5); }},
+    {{"stacks8", "eight walls of 55 boxes, hit by an iron ball (thesis §5.1)", "stacks8"},
+     0,
+     {},
+     [](std::string name, Numbers) { return stacksScene(std::move(name), 8); }},
+    {{"well324", "324 balls fall into a low well (thesis §5.1)", "well324"},
+     0,
+     {},
+     [](std::string name, Numbers) { return wellScene(std::move(name), 0.0665, 0.11, 6, 9); }},
+    {{"well392", "392 balls fall into a low well (thesis §5.1)", "well392"},
+     0,
+     {},
+     [](std::string name, Numbers) { return wellScene(std::move(name), 0.057, 0.095, 7, 8); }},
+    {{"cage384", "384 balls and boxes fly in a cage; gravity comes on after 1 s (thesis §5.1)", "cage384"},
+     0,
+     {},
+     [](std::string name, Numbers) {
+         return cageScene(std::move(name), {3.45, 3.45, 2.65}, 0.16, 8, 6);
+     }},
+    {{"cage2816", "2816 balls and boxes fly in a cage; gravity comes on after 1 s (thesis §5.1)", "cage2816"},
+     0,
+     {},
+     [](std::string name, Numbers) {
+         return cageScene(std::move(name), {3.31, 3.31, 2.31}, 0.1, 16, 11);
+     }},
+    {{"catapult7", "a falling box tosses seven boxes from a plank (thesis §5.6)", "catapult7"},
+     0,
+     {},
+     [](std::string name, Numbers) { return catapultScene(std::move(name)); }},
+    {{"catapult15", "a falling box tosses fifteen small boxes from a plank (thesis §5.6)", "catapult15"},
+     0,
+     {},
+     [](std::string name, Numbers) { return catapultScene(std::move(name)); }},
+    {{"cradle:N:K", "N elastic balls in free space, K of them flying against the row of the others (5 and 1)",
+      "cradle:5:2"},
+     2,
+     {{{"N, the number of balls", 2, 1000, 5}, {"K, the number of moving balls", 1, 999, 1}}},
+     [](std::string name, Numbers n) { return cradleScene(std::move(name), n[0], n[1]); }},
+    {{"tower:N", "N boxes on top of each other", "tower:10"},
+     1,
+     {{{"N, the number of boxes", 1, 10000, 0}}},
+     [](std::string name, Numbers n) { return towerScene(std::move(name), n[0]); }},
+    {{"wall:ROWS", "a wall with ROWS boxes in the lowest row and one fewer in each above", "wall:10"},
+     1,
+     {{{"ROWS, the number of rows", 1, 400, 0}}},
+     [](std::string name, Numbers n) { return wallScene(std::move(name), n[0]); }},
+    {{"heap:N", "N boxes, balls and capsules of different sizes poured into a pit", "heap:1000"},
+     1,
+     {{{"N, the number of bodies", 1, 100000, 0}}},
+     [](std::string name, Numbers n) { return heapScene(std::move(name), n[0]); }},
+}};
+
+/// The parts of a name between its colons.
+std::vector<std::string_view> splitName(std::string_view name) {
+    std::vector<std::string_view> parts;
+    for (std::size_t begin = 0;;) {
+        const std::size_t end = name.find(':', begin);
+        parts.push_back(name.substr(begin, end - begin));
+        if (end == std::string_view::npos) return parts;
+        begin = end + 1;
+    }
+}
+
+const Entry* findEntry(std::string_view family) {
+    for (const Entry& entry : entries) {
+        if (entry.family() == family) return &entry;
+    }
+    return nullptr;
+}
+
+int readNumber(std::string_view name, std::string_view text, const Parameter& parameter, int maximum) {
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || end != text.data() + text.size() || number < parameter.minimum || number > maximum) {
+        throw InputError(fmt::format("scene '{}': '{}' is not allowed for {}; give a whole number from {} to {}", name,
+                                     text, parameter.meaning, parameter.minimum, maximum));
+    }
+    return number;
+}
+
+}  // namespace
+
+std::vector<BuiltInScene> builtInScenes() {
+    std::vector<BuiltInScene> scenes;
+    for (const Entry& entry : entries) scenes.push_back(entry.scene);
+    return scenes;
+}
+
+bool isBuiltInScene(std::string_view name) {
+    return findEntry(splitName(name).front()) != nullptr;
+}
+
+Scene builtInScene(std::string_view name) {
+    const std::vector<std::string_view> parts = splitName(name);
+    const Entry* const entry = findEntry(parts.front());
+    if (entry == nullptr) {
+        std::vector<std::string_view> names;
+        for (const Entry& known : entries) names.push_back(known.scene.name);
+        throw InputError(fmt::format("'{}' is not a built-in scene; built in are {}", name, fmt::join(names, ", ")));
+    }
+    if (parts.size() - 1 > entry->parameter_count) {
+        throw InputError(fmt::format("scene '{}' has too many parts; its form is {}, such as {}", name,
+                                     entry->scene.name, entry->scene.example));
+    }
+    Numbers numbers{};
+    for (std::size_t i = 0; i < entry->parameter_count; ++i) {
+        const Parameter& parameter = entry->parameters[i];
+        // A row of a cradle has at least one ball that waits.
+        const int maximum = i == 1 ? numbers[0] - 1 : parameter.maximum;
+        if (i + 1 < parts.size()) {
+            numbers[i] = readNumber(name, parts[i + 1], parameter, maximum);
+        } else if (parameter.fallback > 0) {
+            numbers[i] = parameter.fallback;
+        } else {
+            throw InputError(fmt::format("scene '{}' needs {}; its form is {}, such as {}", name, parameter.meaning,
+                                         entry->scene.name, entry->scene.example));
+        }
+    }
+    return entry->make(std::string(name), numbers);
+}
+
+}  // namespace cairn

@@ -1,0 +1,78 @@
+/// @file JSON for files that people write: every value knows where it stands, so that every message can say it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "cairn/types.h"
+
+namespace cairn {
+
+/// JSON with its keys in the order of the file.
+using Json = nlohmann::ordered_json;
+
+/// The deepest nesting that is read; scene files need six levels.
+inline constexpr std::size_t json_depth_limit = 32;
+
+/// Parses a text. @param source shown in messages, such as the file's name
+/// @throws InputError with line and column for wrong syntax, with the path for keys given twice or too deep nesting
+Json parseJson(std::string_view text, std::string_view source);
+
+/// A value's text for messages, shortened when it is long.
+std::string shown(const Json& value);
+/// Adds a key to a path such as `bodies[3].shape`.
+void appendKey(std::string& path, std::string_view key);
+/// Adds an index to a path.
+void appendIndex(std::string& path, std::size_t index);
+
+/// A value in a document, with the way to it. Holds pointers: parents and the document must outlive it.
+class JsonNode {
+  public:
+    /// The root. @param source shown in messages
+    JsonNode(const Json& value, std::string_view source) : value_(&value), source_(source) {}
+
+    const Json& value() const { return *value_; }
+    /// Such as `bodies[3].shape.radius`; empty for the root.
+    std::string path() const;
+
+    /// @throws InputError always: "SOURCE: PATH is VALUE; it must be ALLOWED"
+    [[noreturn]] void refuse(std::string_view allowed) const;
+    /// @throws InputError always: "SOURCE: PATH TEXT", for what a value alone does not explain
+    [[noreturn]] void fail(std::string_view text) const;
+
+    // Each throws InputError if the value is of another type or out of the named range.
+    void expectKeys(std::initializer_list<std::string_view> allowed) const;
+    void expectArray(std::string_view allowed) const;
+    double number() const;
+    double positive() const;
+    double nonNegative() const;
+    Vec3 vector() const;
+    bool flag() const;
+    std::string text() const;  ///< not empty
+
+    /// A key that must be there. @param allowed what it must be, for the message
+    JsonNode required(std::string_view key, std::string_view allowed) const;
+    std::optional<JsonNode> find(std::string_view key) const;
+    JsonNode member(std::string_view key, const Json& value) const;
+    JsonNode element(std::size_t index) const;
+    std::size_t size() const { return value_->size(); }
+
+  private:
+    JsonNode(const Json& value, const JsonNode& parent, std::string_view key, std::size_t index)
+        : value_(&value), source_(parent.source_), parent_(&parent), key_(key), index_(index) {}
+    double numberIf(bool allowed, std::string_view what) const;
+    void appendPath(std::string& path) const;
+
+    const Json* value_;
+    std::string_view source_;
+    const JsonNode* parent_ = nullptr;
+    std::string_view key_;   ///< empty for elements of arrays
+    std::size_t index_ = 0;  ///< of an element of an array
+};
+
+}  // namespace cairn

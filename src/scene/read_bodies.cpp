@@ -1,0 +1,200 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "geometry/geometry.h"
+#include "scene/scene_reading.h"
+
+namespace cairn {
+namespace {
+
+/// Range of a quaternion's length before it is normalised; outside it the direction drowns in rounding.
+constexpr double smallest_quaternion = 1e-6;
+constexpr double largest_quaternion = 1e6;
+
+std::string knownMaterials(const SceneReading& reading) {
+    if (reading.scene.materials.empty()) return "'materials' lists none";
+    std::vector<std::string_view> names;
+    for (const Material& material : reading.scene.materials) names.push_back(material.name);
+    return fmt::format("known are {}", fmt::join(names, ", "));
+}
+
+/// @param inherited values of the members that are not given
+PairProperties readPair(const JsonNode& node, PairProperties inherited) {
+    node.expectKeys({"restitution", "static_friction", "kinetic_friction"});
+    PairProperties pair = inherited;
+    if (const auto value = node.find("restitution")) {
+        pair.restitution = value->nonNegative();
+        if (pair.restitution > 1) value->refuse("a number within 0 and 1");
+    }
+    if (const auto value = node.find("static_friction")) pair.static_friction = value->nonNegative();
+    if (const auto value = node.find("kinetic_friction")) pair.kinetic_friction = value->nonNegative();
+    if (pair.kinetic_friction > pair.static_friction) {
+        node.fail(
+            fmt::format("has kinetic_friction {} above static_friction {}{}; kinetic friction must be 0 to "
+                        "static friction",
+                        pair.kinetic_friction, pair.static_friction,
+                        node.find("kinetic_friction") && node.find("static_friction")
+                            ? ""
+                            : " (a value that is not given is the default pair's)"));
+    }
+    return pair;
+}
+
+constexpr std::string_view shape_types = "sphere, box, capsule or plane";
+
+Shape readShape(const JsonNode& node) {
+    if (!node.value().is_object()) node.refuse("an object with the key type and the dimensions");
+    const JsonNode type_node = node.required("type", shape_types);
+    const std::string type = type_node.text();
+    const auto length = [&node](std::string_view key) { return node.required(key, "a number above 0 [m]").positive(); };
+    if (type == "sphere") {
+        node.expectKeys({"type", "radius"});
+        return Sphere{length("radius")};
+    }
+    if (type == "box") {
+        node.expectKeys({"type", "size"});
+        const JsonNode size = node.required("size", "three edge lengths [m]");
+        const Vec3 edges = size.vector();
+        if (!(edges.array() > 0).all()) size.refuse("three numbers above 0: the full edge lengths [m]");
+        return Box{edges};
+    }
+    if (type == "capsule") {
+        node.expectKeys({"type", "radius", "length"});
+        return Capsule{length("radius"), length("length")};
+    }
+    if (type == "plane") {
+        node.expectKeys({"type", "normal", "offset"});
+        const JsonNode normal = node.required("normal", "an array of three numbers");
+        const HalfSpace plane{normal.vector(), node.required("offset", "a number [m]").number()};
+        const double length_squared = plane.normal.squaredNorm();
+        if (!(length_squared > 1e-12 && length_squared < 1e12)) normal.refuse("a direction of length 1e-6 to 1e6");
+        return plane;
+    }
+    type_node.refuse(shape_types);
+}
+
+Quat readOrientation(const JsonNode& node) {
+    if (!node.value().is_array() || node.size() != 4) node.refuse("four numbers w, x, y, z");
+    const Quat q(node.element(0).number(), node.element(1).number(), node.element(2).number(),
+                 node.element(3).number());
+    const double length = q.norm();
+    if (!(length >= smallest_quaternion && length <= largest_quaternion)) {
+        node.refuse("a quaternion w, x, y, z of length 1e-6 to 1e6, so that it can be normalised");
+    }
+    return q;
+}
+
+/// A body must have a mass and an inertia that a double can hold.
+void checkMass(const JsonNode& node, const SceneBody& body, double density) {
+    const UnitMassProperties unit = unitMassProperties(body.shape);
+    const double mass = body.mass.value_or(density * unit.volume);
+    const Vec3 inertia = unit.inertia_volume * (mass / unit.volume);
+    const auto usable = [](double x) { return std::isnormal(x) && std::isnormal(1 / x); };
+    if (!usable(mass) || !usable(inertia.minCoeff()) || !usable(inertia.maxCoeff())) {
+        node.fail(
+            fmt::format("has a mass of {} kg and an inertia of {} to {} kg·m²; shape, density and mass must give "
+                        "numbers that are neither 0 nor infinite",
+                        mass, inertia.minCoeff(), inertia.maxCoeff()));
+    }
+}
+
+/// Members that contradict each other.
+void checkBody(const JsonNode& node, const SceneBody& body, const SceneReading& reading) {
+    const bool moves = !body.linear_velocity.isZero(0) || !body.angular_velocity.isZero(0);
+    if (std::holds_alternative<HalfSpace>(body.shape)) {
+        if (!body.fixed) node.fail("is a plane that is not fixed; a plane needs \"fixed\": true");
+        if (body.mass) node.fail("is a plane with a mass; a plane is fixed and has none, remove mass");
+    }
+    if (body.fixed && moves) node.fail("is fixed and has a velocity; a fixed body never moves, remove one of them");
+    if (body.fixed && body.asleep) node.fail("is fixed and asleep; only a body that can move sleeps, remove asleep");
+    if (body.asleep && moves) {
+        node.fail("is asleep and has a velocity; a sleeping body is at rest, remove asleep or the velocities");
+    }
+    if (!isInfinite(body.shape)) checkMass(node, body, reading.density.at(body.material));
+}
+
+SceneBody readBody(const JsonNode& node, const SceneReading& reading) {
+    node.expectKeys({"shape", "material", "name", "mass", "position", "orientation", "linear_velocity",
+                     "angular_velocity", "fixed", "asleep"});
+    SceneBody body;
+    body.shape = readShape(node.required("shape", "an object"));
+    const JsonNode material = node.required("material", "the name of a material");
+    body.material = material.text();
+    if (!reading.density.contains(body.material)) {
+        material.fail(fmt::format("is the unknown material '{}'; {}", body.material, knownMaterials(reading)));
+    }
+    if (const auto value = node.find("name")) body.name = value->text();
+    if (const auto value = node.find("mass")) body.mass = value->positive();
+    if (const auto value = node.find("position")) body.position = value->vector();
+    if (const auto value = node.find("orientation")) body.orientation = readOrientation(*value);
+    if (const auto value = node.find("linear_velocity")) body.linear_velocity = value->vector();
+    if (const auto value = node.find("angular_velocity")) body.angular_velocity = value->vector();
+    if (const auto value = node.find("fixed")) body.fixed = value->flag();
+    if (const auto value = node.find("asleep")) body.asleep = value->flag();
+    checkBody(node, body, reading);
+    return body;
+}
+
+}  // namespace
+
+void readMaterials(const JsonNode& node, SceneReading& reading) {
+    if (!node.value().is_object()) node.refuse("an object with one entry per material");
+    for (const auto& [name, value] : node.value().get_ref<const Json::object_t&>()) {
+        const JsonNode entry = node.member(name, value);
+        if (name.empty()) entry.fail("is a material without a name; a name has at least one character");
+        if (name.find('/') != std::string::npos) {
+            entry.fail("has a '/' in its name; it separates the two materials of a pair, use another character");
+        }
+        entry.expectKeys({"density"});
+        const double density = entry.required("density", "a number above 0 [kg/m³]").positive();
+        reading.scene.materials.push_back({name, density});
+        reading.density.emplace(name, density);
+    }
+}
+
+void readContacts(const JsonNode& node, SceneReading& reading) {
+    if (!node.value().is_object()) node.refuse("an object with the keys default and pairs such as oak/iron");
+    Scene& scene = reading.scene;
+    if (const auto value = node.find("default")) scene.default_pair = readPair(*value, PairProperties{});
+    std::set<std::pair<std::string, std::string>> seen;
+    for (const auto& [key, value] : node.value().get_ref<const Json::object_t&>()) {
+        if (key == "default") continue;
+        const JsonNode entry = node.member(key, value);
+        const std::size_t slash = key.find('/');
+        if (slash == std::string::npos) {
+            entry.fail("is no pair; allowed are default and two materials such as oak/iron");
+        }
+        std::pair<std::string, std::string> names{key.substr(0, slash), key.substr(slash + 1)};
+        for (const std::string& name : {names.first, names.second}) {
+            if (!reading.density.contains(name)) {
+                entry.fail(fmt::format("names the unknown material '{}'; {}", name, knownMaterials(reading)));
+            }
+        }
+        if (!seen.insert(std::minmax(names.first, names.second)).second) {
+            entry.fail("gives a pair that was given before; both orders of the names mean the same pair");
+        }
+        scene.pairs.emplace_back(std::move(names), readPair(entry, scene.default_pair));
+    }
+}
+
+void readBodies(const JsonNode& node, SceneReading& reading) {
+    node.expectArray("an array of bodies; it may be empty");
+    reading.scene.bodies.reserve(node.size());
+    for (std::size_t i = 0; i < node.size(); ++i) {
+        const JsonNode entry = node.element(i);
+        SceneBody body = readBody(entry, reading);
+        if (!body.name.empty()) {
+            const auto [other, added] = reading.by_name.emplace(body.name, i);
+            if (!added) {
+                entry.required("name", "a text")
+                    .fail(
+                        fmt::format("is '{}' as that of bodies[{}]; a name must be unique", body.name, other->second));
+            }
+        }
+        reading.scene.bodies.push_back(std::move(body));
+    }
+}
+
+}  // namespace cairn

@@ -1,0 +1,26 @@
+/// @file The parts of a scene file, one reader each.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "cairn/scene.h"
+#include "scene/json_node.h"
+
+namespace cairn {
+
+/// A scene on its way, with its names.
+struct SceneReading {
+    Scene scene;
+    std::map<std::string, double, std::less<>> density;       ///< of each material [kg/m³]
+    std::map<std::string, std::size_t, std::less<>> by_name;  ///< index of each named body
+};
+
+// Each reads the value of one key of the scene, in this order. @throws InputError
+void readMaterials(const JsonNode& node, SceneReading& reading);
+void readContacts(const JsonNode& node, SceneReading& reading);
+void readBodies(const JsonNode& node, SceneReading& reading);
+void readEvents(const JsonNode& node, SceneReading& reading);
+void readSprings(const JsonNode& node, SceneReading& reading);
+
+}  // namespace cairn

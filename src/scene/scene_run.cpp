@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "cairn/scene.h"
+#include "scene/body_title.h"
+
+namespace cairn {
+namespace {
+
+constexpr std::string_view steps_field = "steps_per_second";
+
+/// Steps per second that scene and overrides ask for; 0 = the preset's own.
+double stepsPerSecond(const Scene& scene, const SettingOverrides& overrides) {
+    Settings scratch;
+    scratch.steps_per_second = 0;
+    for (const auto& [name, value] : scene.settings) {
+        if (name == steps_field) setField(scratch, name, value);
+    }
+    for (const auto& [name, text] : overrides.fields) {
+        if (name != steps_field) continue;
+        setFieldFromText(scratch, name, text);
+        if (overrides.steps_per_second && *overrides.steps_per_second != scratch.steps_per_second) {
+            throw InputError(fmt::format("{} is given twice, as {} and as {}; give it once", steps_field,
+                                         *overrides.steps_per_second, scratch.steps_per_second));
+        }
+    }
+    if (overrides.steps_per_second) setField(scratch, steps_field, *overrides.steps_per_second);
+    return scratch.steps_per_second;
+}
+
+/// All gravities that the scene has at any time [m/s², W].
+std::vector<Vec3> gravities(const Scene& scene) {
+    std::vector<Vec3> all{scene.gravity};
+    for (const SceneEvent& event : scene.events) {
+        if (const auto* change = std::get_if<SetGravity>(&event.action)) all.push_back(change->gravity);
+    }
+    return all;
+}
+
+/// Magnitude of the weakest gravity that is not zero [m/s²]; 0 without any.
+double weakestGravity(const Scene& scene) {
+    double weakest = 0;
+    for (const Vec3& gravity : gravities(scene)) {
+        const double magnitude = gravity.norm();
+        if (magnitude > 0 && (weakest == 0 || magnitude < weakest)) weakest = magnitude;
+    }
+    return weakest;
+}
+
+/// Runs something and puts what it is about before the text of its errors.
+template <typename Action>
+auto inContext(const std::string& context, Action action) {
+    try {
+        return action();
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", context, error.what()));
+    }
+}
+
+using MaterialIds = std::map<std::string, MaterialId, std::less<>>;
+
+MaterialId findMaterial(const MaterialIds& ids, const std::string& name) {
+    const auto found = ids.find(name);
+    if (found == ids.end()) throw InputError(fmt::format("material '{}' is not one of the scene's materials", name));
+    return found->second;
+}
+
+MaterialIds addMaterials(const Scene& scene, World& world) {
+    MaterialIds ids;
+    for (const Material& material : scene.materials) ids.emplace(material.name, world.addMaterial(material));
+    world.setDefaultPairProperties(scene.default_pair);
+    for (const auto& [names, pair] : scene.pairs) {
+        inContext(fmt::format("contacts '{}/{}'", names.first, names.second), [&, &key = names, &properties = pair] {
+            world.setPairProperties(findMaterial(ids, key.first), findMaterial(ids, key.second), properties);
+        });
+    }
+    return ids;
+}
+
+BodyDescription describe(const SceneBody& body, const MaterialIds& materials) {
+    BodyDescription description;
+    description.shape = body.shape;
+    description.material = findMaterial(materials, body.material);
+    description.mass = body.mass;
+    description.pose = {body.position, body.orientation};
+    description.linear_velocity = body.linear_velocity;
+    description.angular_velocity = body.angular_velocity;
+    description.fixed = body.fixed;
+    description.asleep = body.asleep;
+    description.name = body.name;
+    return description;
+}
+
+BodyId bodyId(const std::vector<BodyId>& ids, std::size_t index) {
+    if (index >= ids.size()) {
+        throw InputError(fmt::format("body {} does not exist; the scene has {} bodies", index, ids.size()));
+    }
+    return ids[index];
+}
+
+void addSpring(const SceneSpring& spring, const std::vector<BodyId>& ids, World& world) {
+    SpringDescription description;
+    description.a = bodyId(ids, spring.a);
+    if (spring.b) description.b = bodyId(ids, *spring.b);
+    description.anchor_a = spring.anchor_a;
+    description.anchor_b = spring.anchor_b;
+    description.stiffness = spring.stiffness;
+    description.damping = spring.damping;
+    description.rest_length = spring.rest_length;
+    world.addSpring(description);
+}
+
+/// What an event does to a body.
+struct BodyAction {
+    World& world;
+    const std::vector<BodyId>& ids;
+
+    void operator()(const SetGravity& a) const { world.setGravity(a.gravity); }
+    void operator()(const SetVelocity& a) const { world.setLinearVelocity(bodyId(ids, a.body), a.velocity); }
+    void operator()(const GiveImpulse& a) const { world.applyImpulse(bodyId(ids, a.body), a.impulse); }
+    void operator()(const SetForce& a) const { world.setConstantForce(bodyId(ids, a.body), a.force); }
+    void operator()(const SetTorque& a) const { world.setConstantTorque(bodyId(ids, a.body), a.torque); }
+    void operator()(const RemoveBody& a) const { world.removeBody(bodyId(ids, a.body)); }
+};
+
+}  // namespace
+
+Settings settingsFor(const Scene& scene, const SettingOverrides& overrides) {
+    const Preset preset = overrides.preset.value_or(scene.preset.value_or(Preset::performance));
+    Settings settings = Settings::preset(preset, stepsPerSecond(scene, overrides), weakestGravity(scene));
+    for (const auto& [name, value] : scene.settings) {
+        if (name != steps_field) setField(settings, name, value);
+    }
+    for (const auto& [name, text] : overrides.fields) setFieldFromText(settings, name, text);
+    // A gravity that comes later is checked now, not in the middle of a run.
+    for (const Vec3& gravity : gravities(scene)) validate(settings, gravity);
+    return settings;
+}
+
+SceneRun::SceneRun(const Scene& scene, const Settings& settings) : scene_(scene), world_(settings) {
+    std::stable_sort(scene_.events.begin(), scene_.events.end(),
+                     [](const SceneEvent& a, const SceneEvent& b) { return a.time < b.time; });
+    const MaterialIds materials = addMaterials(scene_, world_);
+    world_.setGravity(scene_.gravity);
+    ids_.reserve(scene_.bodies.size());
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+        inContext(bodyTitle(scene_, i), [&] { ids_.push_back(world_.addBody(describe(scene_.bodies[i], materials))); });
+    }
+    for (std::size_t i = 0; i < scene_.springs.size(); ++i) {
+        inContext(fmt::format("spring {}", i), [&] { addSpring(scene_.springs[i], ids_, world_); });
+    }
+}
+
+void SceneRun::apply(const EventAction& action) {
+    std::visit(BodyAction{world_, ids_}, action);
+}
+
+void SceneRun::step() {
+    const double steps_per_second = world_.settings().steps_per_second;
+    const auto now = static_cast<double>(world_.stepCount());
+    // In steps, with a tolerance: an event at 0.1 s belongs to step 24 of 240, whatever 0.1 · 240 is rounded to.
+    while (next_event_ < scene_.events.size() &&
+           std::ceil(scene_.events[next_event_].time * steps_per_second - 1e-9) <= now) {
+        const SceneEvent& event = scene_.events[next_event_++];
+        inContext(fmt::format("event at {} s", event.time), [&] { apply(event.action); });
+    }
+    world_.step();
+}
+
+int SceneRun::stepsPerSimulationStep() const {
+    const double steps_per_second = world_.settings().steps_per_second;
+    const double steps = std::round(steps_per_second / simulation_steps_per_second);
+    if (steps < 1 || std::abs(steps * simulation_steps_per_second - steps_per_second) > 1e-9 * steps_per_second) {
+        const double below = std::max(1.0, std::floor(steps_per_second / simulation_steps_per_second));
+        throw InputError(fmt::format(
+            "steps_per_second is {}; simulation steps of 1/30 s need a multiple of 30, such as {} or {}",
+            steps_per_second, below * simulation_steps_per_second, (below + 1) * simulation_steps_per_second));
+    }
+    return static_cast<int>(steps);
+}
+
+Statistics SceneRun::simulationStep() {
+    Statistics sum;
+    for (int left = stepsPerSimulationStep(); left > 0; --left) {
+        step();
+        sum.add(world_.statistics());
+    }
+    return sum;
+}
+
+}  // namespace cairn

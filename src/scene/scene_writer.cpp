@@ -1,0 +1,220 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "cairn/scene.h"
+#include "scene/json_node.h"
+
+namespace cairn {
+namespace {
+
+/// The shortest text that is read back as the same number.
+std::string number(double value) {
+    if (!std::isfinite(value)) {
+        throw InputError(fmt::format("a scene with the number {} cannot be written; numbers must be finite", value));
+    }
+    // Without the point JSON readers take minus zero for the whole number 0.
+    if (value == 0 && std::signbit(value)) return "-0.0";
+    return fmt::format("{}", value);
+}
+
+/// Tells minus zero from zero, so that what is left out is read back bit by bit.
+bool same(double a, double b) {
+    return a == b && std::signbit(a) == std::signbit(b);
+}
+
+bool isOmitted(const Vec3& v) {
+    return same(v.x(), 0) && same(v.y(), 0) && same(v.z(), 0);
+}
+
+std::string vector(const Vec3& v) {
+    return fmt::format("[{},{},{}]", number(v.x()), number(v.y()), number(v.z()));
+}
+
+std::string text(const std::string& value) {
+    try {
+        return Json(value).dump();
+    } catch (const Json::exception&) {
+        throw InputError(
+            fmt::format("a scene with the name {} cannot be written; names must be UTF-8", shown(Json(value))));
+    }
+}
+
+std::string shapeText(const Sphere& s) {
+    return fmt::format(R"("sphere","radius":{})", number(s.radius));
+}
+std::string shapeText(const Box& s) {
+    return fmt::format(R"("box","size":{})", vector(s.size));
+}
+std::string shapeText(const Capsule& s) {
+    return fmt::format(R"("capsule","radius":{},"length":{})", number(s.radius), number(s.length));
+}
+std::string shapeText(const HalfSpace& s) {
+    return fmt::format(R"("plane","normal":{},"offset":{})", vector(s.normal), number(s.offset));
+}
+
+std::string bodyText(const SceneBody& body) {
+    const std::string shape = std::visit([](const auto& s) { return shapeText(s); }, body.shape);
+    std::string out = fmt::format(R"({{"shape":{{"type":{}}},"material":{})", shape, text(body.material));
+    const auto addVector = [&out](std::string_view key, const Vec3& value) {
+        if (!isOmitted(value)) out += fmt::format(R"(,"{}":{})", key, vector(value));
+    };
+    if (!body.name.empty()) out += fmt::format(R"(,"name":{})", text(body.name));
+    if (body.mass) out += fmt::format(R"(,"mass":{})", number(*body.mass));
+    addVector("position", body.position);
+    const Quat& q = body.orientation;
+    if (!same(q.w(), 1) || !isOmitted(q.vec())) {
+        out +=
+            fmt::format(R"(,"orientation":[{},{},{},{}])", number(q.w()), number(q.x()), number(q.y()), number(q.z()));
+    }
+    addVector("linear_velocity", body.linear_velocity);
+    addVector("angular_velocity", body.angular_velocity);
+    if (body.fixed) out += R"(,"fixed":true)";
+    if (body.asleep) out += R"(,"asleep":true)";
+    return out + "}";
+}
+
+// Bodies of events are written by index: every body has one, few have a name.
+std::string actionText(const SetGravity& a) {
+    return fmt::format(R"("gravity":{})", vector(a.gravity));
+}
+std::string actionText(const SetVelocity& a) {
+    return fmt::format(R"("body":{},"set_velocity":{})", a.body, vector(a.velocity));
+}
+std::string actionText(const GiveImpulse& a) {
+    return fmt::format(R"("body":{},"impulse":{})", a.body, vector(a.impulse));
+}
+std::string actionText(const SetForce& a) {
+    return fmt::format(R"("body":{},"force":{})", a.body, vector(a.force));
+}
+std::string actionText(const SetTorque& a) {
+    return fmt::format(R"("body":{},"torque":{})", a.body, vector(a.torque));
+}
+std::string actionText(const RemoveBody& a) {
+    return fmt::format(R"("body":{},"remove":true)", a.body);
+}
+
+std::string eventText(const SceneEvent& event) {
+    const std::string action = std::visit([](const auto& a) { return actionText(a); }, event.action);
+    return fmt::format(R"({{"time":{},{}}})", number(event.time), action);
+}
+
+/// The members that differ from what a reader would assume.
+std::string pairText(const PairProperties& pair, const PairProperties& inherited) {
+    std::string out;
+    const auto add = [&out](std::string_view key, double value, double assumed) {
+        if (!same(value, assumed)) out += fmt::format(R"({}"{}":{})", out.empty() ? "" : ",", key, number(value));
+    };
+    add("restitution", pair.restitution, inherited.restitution);
+    add("static_friction", pair.static_friction, inherited.static_friction);
+    add("kinetic_friction", pair.kinetic_friction, inherited.kinetic_friction);
+    return "{" + out + "}";
+}
+
+std::string contactsText(const Scene& scene) {
+    const PairProperties& d = scene.default_pair;
+    std::string out = fmt::format(R"({{"default":{{"restitution":{},"static_friction":{},"kinetic_friction":{}}})",
+                                  number(d.restitution), number(d.static_friction), number(d.kinetic_friction));
+    for (const auto& [names, pair] : scene.pairs) {
+        out += fmt::format(",\n{}:{}", text(names.first + "/" + names.second), pairText(pair, d));
+    }
+    return out + "}";
+}
+
+std::string springText(const SceneSpring& spring) {
+    std::string out = fmt::format(R"({{"a":{})", spring.a);
+    if (spring.b) out += fmt::format(R"(,"b":{})", *spring.b);
+    if (!isOmitted(spring.anchor_a)) out += fmt::format(R"(,"anchor_a":{})", vector(spring.anchor_a));
+    if (!isOmitted(spring.anchor_b)) out += fmt::format(R"(,"anchor_b":{})", vector(spring.anchor_b));
+    out += fmt::format(R"(,"stiffness":{})", number(spring.stiffness));
+    if (!same(spring.damping, 0)) out += fmt::format(R"(,"damping":{})", number(spring.damping));
+    if (!same(spring.rest_length, 0)) out += fmt::format(R"(,"rest_length":{})", number(spring.rest_length));
+    return out + "}";
+}
+
+std::string valueText(bool value) {
+    return value ? "true" : "false";
+}
+std::string valueText(std::int64_t value) {
+    return fmt::format("{}", value);
+}
+std::string valueText(const std::string& value) {
+    return text(value);
+}
+std::string valueText(double value) {
+    std::string out = number(value);
+    // Keeps a whole number of type double apart from an integer when it is read back.
+    if (out.find_first_of(".e") == std::string::npos) out += ".0";
+    return out;
+}
+
+std::string settingsText(const Scene& scene) {
+    std::string out;
+    if (scene.preset)
+        out += fmt::format(R"("preset":"{}")", *scene.preset == Preset::accuracy ? "accuracy" : "performance");
+    for (const auto& [name, value] : scene.settings) {
+        if (!out.empty()) out += ",";
+        out += text(name) + ":" + std::visit([](const auto& v) { return valueText(v); }, value);
+    }
+    return "{" + out + "}";
+}
+
+std::string materialsText(const Scene& scene) {
+    std::string out;
+    for (const Material& material : scene.materials) {
+        if (!out.empty()) out += ",";
+        out += fmt::format(R"({}:{{"density":{}}})", text(material.name), number(material.density));
+    }
+    return "{" + out + "}";
+}
+
+/// An array with one entry per line.
+template <typename T, typename Format>
+std::string lines(const std::vector<T>& entries, Format format) {
+    if (entries.empty()) return "[]";
+    std::string out = "[";
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        out += i == 0 ? "\n" : ",\n";
+        out += format(entries[i]);
+    }
+    return out + "\n]";
+}
+
+std::string eventsText(const Scene& scene) {
+    std::string out;
+    for (const SceneEvent& event : scene.events) {
+        if (!out.empty()) out += ",\n";
+        out += eventText(event);
+    }
+    return "[" + out + "]";
+}
+
+}  // namespace
+
+std::string formatScene(const Scene& scene) {
+    std::string out = fmt::format("{{\"name\":{},\"duration\":{},\"gravity\":{},\n", text(scene.name),
+                                  number(scene.duration), vector(scene.gravity));
+    if (!scene.events.empty()) out += fmt::format("\"events\":{},\n", eventsText(scene));
+    out += fmt::format("\"materials\":{},\n\"contacts\":{},\n\"bodies\":{}", materialsText(scene), contactsText(scene),
+                       lines(scene.bodies, bodyText));
+    if (!scene.springs.empty()) out += fmt::format(",\n\"springs\":{}", lines(scene.springs, springText));
+    if (scene.preset || !scene.settings.empty()) out += fmt::format(",\n\"settings\":{}", settingsText(scene));
+    return out + "}\n";
+}
+
+void writeScene(const Scene& scene, const std::filesystem::path& file) {
+    const std::string content = formatScene(scene);
+    std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+    stream << content;
+    stream.close();
+    if (!stream) {
+        throw IoError(
+            fmt::format("{}: cannot be written; check that its folder exists, that it may be written and "
+                        "that the disk is not full",
+                        file.string()));
+    }
+}
+
+}  // namespace cairn
