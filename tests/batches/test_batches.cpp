@@ -1,0 +1,296 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "batches/batches.h"
+
+namespace cairn {
+namespace {
+
+constexpr BodyKind D = BodyKind::dynamic;
+constexpr BodyKind F = BodyKind::fixed;
+constexpr BodyKind H = BodyKind::hole;
+
+/// splitmix64.
+class Random {
+  public:
+    explicit Random(std::uint64_t seed) : state_(seed) {}
+    std::uint32_t below(std::size_t limit) {
+        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return static_cast<std::uint32_t>((z ^ (z >> 31)) % limit);
+    }
+
+  private:
+    std::uint64_t state_;
+};
+
+using Pairs = std::vector<std::pair<BodyIndex, BodyIndex>>;
+
+/// Sorted as the narrow phase delivers them.
+std::vector<Contact> contactsBetween(Pairs pairs) {
+    for (auto& [a, b] : pairs) {
+        if (a > b) std::swap(a, b);
+    }
+    std::sort(pairs.begin(), pairs.end());
+    std::vector<Contact> contacts(pairs.size());
+    for (std::size_t c = 0; c < pairs.size(); ++c) std::tie(contacts[c].a, contacts[c].b) = pairs[c];
+    return contacts;
+}
+
+/// A batch, for comparison.
+struct Group {
+    std::vector<BodyIndex> bodies;
+    std::vector<std::uint32_t> contacts;
+
+    friend bool operator==(const Group&, const Group&) = default;
+};
+
+std::vector<Group> groupsOf(const Batches& batches) {
+    std::vector<Group> groups;
+    for (std::size_t i = 0; i < batches.size(); ++i) {
+        const BatchView view = batches[i];
+        groups.push_back({{view.bodies.begin(), view.bodies.end()}, {view.contacts.begin(), view.contacts.end()}});
+    }
+    return groups;
+}
+
+Batches build(const std::vector<BodyKind>& kind, const std::vector<Contact>& contacts) {
+    BatchScratch scratch;
+    Batches batches;
+    buildBatches(kind, contacts, scratch, batches);
+    return batches;
+}
+
+/// Breadth-first search from each body in ascending order; contacts of each body are searched for, slowly.
+std::vector<Group> searchGroups(const std::vector<BodyKind>& kind, const std::vector<Contact>& contacts) {
+    std::vector<Group> groups;
+    std::vector<char> seen(kind.size(), 0);
+    for (BodyIndex start = 0; start < kind.size(); ++start) {
+        if (kind[start] != D || seen[start] != 0) continue;
+        seen[start] = 1;
+        Group group{{start}, {}};
+        for (std::size_t at = 0; at < group.bodies.size(); ++at) {
+            for (std::uint32_t c = 0; c < contacts.size(); ++c) {
+                const BodyIndex body = group.bodies[at];
+                if (contacts[c].a != body && contacts[c].b != body) continue;
+                group.contacts.push_back(c);
+                const BodyIndex other = contacts[c].a == body ? contacts[c].b : contacts[c].a;
+                if (kind[other] != D || seen[other] != 0) continue;
+                seen[other] = 1;
+                group.bodies.push_back(other);
+            }
+        }
+        if (group.contacts.empty()) continue;
+        std::sort(group.bodies.begin(), group.bodies.end());
+        std::sort(group.contacts.begin(), group.contacts.end());
+        const auto last = std::unique(group.contacts.begin(), group.contacts.end());
+        group.contacts.erase(last, group.contacts.end());
+        groups.push_back(group);
+    }
+    return groups;
+}
+
+struct Graph {
+    std::vector<BodyKind> kind;
+    std::vector<Contact> contacts;
+};
+
+/// @param density contacts per body
+Graph randomGraph(Random& random, std::size_t bodies, double density) {
+    Graph graph;
+    for (std::size_t i = 0; i < bodies; ++i) {
+        const auto draw = random.below(10);
+        graph.kind.push_back(draw == 0 ? H : draw < 3 ? F : D);
+    }
+    Pairs pairs;
+    const auto tries = static_cast<std::size_t>(density * static_cast<double>(bodies));
+    for (std::size_t i = 0; i < tries; ++i) {
+        const BodyIndex a = random.below(bodies);
+        const BodyIndex b = random.below(bodies);
+        if (a == b || graph.kind[a] == H || graph.kind[b] == H) continue;
+        if (graph.kind[a] == F && graph.kind[b] == F) continue;
+        for (std::uint32_t points = 1 + random.below(4); points > 0; --points) pairs.emplace_back(a, b);
+    }
+    graph.contacts = contactsBetween(pairs);
+    return graph;
+}
+
+TEST(Batches, NoBodiesOrNoContactsGiveNoBatch) {
+    EXPECT_EQ(build({}, {}).size(), 0u);
+    EXPECT_EQ(Batches{}.size(), 0u);
+    EXPECT_EQ(build({D, D, F, H}, {}).size(), 0u);
+}
+
+/// Figure 14 of the thesis: piles on one ground, which is fixed, are independent of each other.
+TEST(Batches, PilesOnOneGroundAreIndependentGroups) {
+    const std::vector<BodyKind> kind = {F, D, D, D, D, D, D, D, D};  // 0 is the ground, 8 is in the air
+    const auto contacts = contactsBetween({{0, 1}, {0, 2}, {1, 3}, {2, 3}, {0, 4}, {4, 5}, {0, 6}, {6, 7}, {0, 7}});
+    const std::vector<Group> expected = {{{1, 2, 3}, {0, 1, 5, 6}}, {{4, 5}, {2, 7}}, {{6, 7}, {3, 4, 8}}};
+    EXPECT_EQ(groupsOf(build(kind, contacts)), expected);
+}
+
+TEST(Batches, AFixedBodyWithinAPileIsABarrierToo) {
+    // A bridge: 0 leans on the fixed 1 from the left, 2 from the right.
+    const std::vector<BodyKind> kind = {D, F, D};
+    EXPECT_EQ(groupsOf(build(kind, contactsBetween({{0, 1}, {1, 2}}))), (std::vector<Group>{{{0}, {0}}, {{2}, {1}}}));
+    // Once they touch each other, too, they are one group.
+    EXPECT_EQ(groupsOf(build(kind, contactsBetween({{0, 1}, {0, 2}, {1, 2}}))),
+              (std::vector<Group>{{{0, 2}, {0, 1, 2}}}));
+}
+
+TEST(Batches, AChainIsOneGroupWhicheverWayItIsNumbered) {
+    constexpr BodyIndex length = 1000;
+    Random random(1);
+    std::vector<BodyIndex> number(length);
+    std::iota(number.begin(), number.end(), 0u);
+    for (int round = 0; round < 3; ++round) {
+        Pairs pairs;
+        for (BodyIndex i = 0; i + 1 < length; ++i) pairs.emplace_back(number[i], number[i + 1]);
+        const Batches batches = build(std::vector<BodyKind>(length, D), contactsBetween(pairs));
+        ASSERT_EQ(batches.size(), 1u);
+        EXPECT_EQ(batches[0].bodies.size(), length);
+        EXPECT_EQ(batches[0].contacts.size(), length - 1);
+        std::reverse(number.begin(), number.end());
+        if (round == 1) {
+            for (std::size_t i = length; i > 1; --i) std::swap(number[i - 1], number[random.below(i)]);
+        }
+    }
+}
+
+TEST(Batches, EqualABreadthFirstSearchOnRandomGraphs) {
+    Random random(2);
+    std::size_t batches_seen = 0;
+    for (int round = 0; round < 200; ++round) {
+        const Graph graph = randomGraph(random, 1 + random.below(120), 0.1 + 0.01 * round);
+        const Batches batches = build(graph.kind, graph.contacts);
+        ASSERT_EQ(groupsOf(batches), searchGroups(graph.kind, graph.contacts)) << round;
+        batches_seen += batches.size();
+        ASSERT_EQ(batches.batch_of_contact.size(), graph.contacts.size());
+        for (std::size_t i = 0; i < batches.size(); ++i) {
+            for (const std::uint32_t c : batches[i].contacts) ASSERT_EQ(batches.batch_of_contact[c], i);
+        }
+    }
+    EXPECT_GT(batches_seen, 1000u);
+}
+
+TEST(Batches, ScratchOfALargerStepDoesNotMatter) {
+    Random random(3);
+    BatchScratch scratch;
+    Batches batches;
+    for (const std::size_t bodies : {300, 20, 150, 2, 0}) {
+        const Graph graph = bodies > 0 ? randomGraph(random, bodies, 0.8) : Graph{};
+        buildBatches(graph.kind, graph.contacts, scratch, batches);
+        EXPECT_EQ(groupsOf(batches), searchGroups(graph.kind, graph.contacts)) << bodies;
+    }
+}
+
+TEST(Batches, OrderIsCanonicalWhateverTheOrderOfContacts) {
+    // The groups, as sets of bodies in their order, must not depend on the order in which contacts are joined.
+    Random random(4);
+    for (int round = 0; round < 30; ++round) {
+        Graph graph = randomGraph(random, 80, 0.6);
+        const Batches expected = build(graph.kind, graph.contacts);
+        for (std::size_t i = graph.contacts.size(); i > 1; --i) {
+            std::swap(graph.contacts[i - 1], graph.contacts[random.below(i)]);
+        }
+        const Batches shuffled = build(graph.kind, graph.contacts);
+        ASSERT_EQ(shuffled.bodies, expected.bodies);
+        ASSERT_EQ(shuffled.body_begin, expected.body_begin);
+        ASSERT_EQ(shuffled.contact_begin, expected.contact_begin);
+        for (std::size_t i = 0; i < shuffled.size(); ++i) {
+            ASSERT_TRUE(std::is_sorted(shuffled[i].contacts.begin(), shuffled[i].contacts.end()));
+            if (i > 0) {
+                ASSERT_LT(shuffled[i - 1].bodies.front(), shuffled[i].bodies.front());
+            }
+        }
+    }
+}
+
+TEST(Batches, AContactThatNobodyCanFollowIsABrokenInvariant) {
+    EXPECT_THROW(build({F, F}, contactsBetween({{0, 1}})), std::logic_error);
+    EXPECT_THROW(build({F, H}, contactsBetween({{0, 1}})), std::logic_error);
+}
+
+TEST(ContactsOfBodies, ListTheContactsOfDynamicBodiesInAscendingOrder) {
+    const std::vector<BodyKind> kind = {D, F, D, H, D};
+    const auto contacts = contactsBetween({{0, 1}, {0, 2}, {0, 2}, {1, 2}});
+    ContactsOfBodies lists;
+    listContacts(kind, contacts, lists);
+    const auto list = [&](BodyIndex i) { return std::vector<std::uint32_t>(lists[i].begin(), lists[i].end()); };
+    EXPECT_EQ(list(0), (std::vector<std::uint32_t>{0, 1, 2}));
+    EXPECT_TRUE(list(1).empty()) << "fixed";
+    EXPECT_EQ(list(2), (std::vector<std::uint32_t>{1, 2, 3}));
+    EXPECT_TRUE(list(3).empty()) << "a hole";
+    EXPECT_TRUE(list(4).empty()) << "touches nothing";
+}
+
+TEST(ContactsOfBodies, EqualASearchOnRandomGraphs) {
+    Random random(5);
+    ContactsOfBodies lists;
+    for (int round = 0; round < 50; ++round) {
+        const Graph graph = randomGraph(random, 1 + random.below(60), 1.5);
+        listContacts(graph.kind, graph.contacts, lists);
+        ASSERT_EQ(lists.begin.size(), graph.kind.size() + 1);
+        for (BodyIndex i = 0; i < graph.kind.size(); ++i) {
+            std::vector<std::uint32_t> expected;
+            for (std::uint32_t c = 0; c < graph.contacts.size() && graph.kind[i] == D; ++c) {
+                if (graph.contacts[c].a == i || graph.contacts[c].b == i) expected.push_back(c);
+            }
+            ASSERT_EQ(std::vector<std::uint32_t>(lists[i].begin(), lists[i].end()), expected);
+        }
+    }
+}
+
+/// Batches with the given numbers of contacts; what is in them does not matter to the schedule.
+Batches batchesOfSizes(const std::vector<std::uint32_t>& sizes) {
+    Batches batches;
+    batches.body_begin.push_back(0);
+    batches.contact_begin.push_back(0);
+    for (const std::uint32_t size : sizes) {
+        batches.body_begin.push_back(batches.body_begin.back() + 1);
+        batches.contact_begin.push_back(batches.contact_begin.back() + size);
+    }
+    return batches;
+}
+
+/// Figure 26 of the thesis: fewer than 8 contacts are small.
+TEST(Schedule, PutsLargeBatchesFirstByDescendingSizeAndLeavesSmallOnesInOrder) {
+    std::vector<std::uint32_t> order = {99};
+    EXPECT_EQ(scheduleBatches(batchesOfSizes({3, 12, 5, 8, 1, 30, 7, 12, 2}), 8, order), 4u);
+    EXPECT_EQ(order, (std::vector<std::uint32_t>{5, 1, 7, 3, 0, 2, 4, 6, 8}));
+}
+
+TEST(Schedule, KnowsOnlyLargeOnlySmallAndNoBatches) {
+    std::vector<std::uint32_t> order;
+    EXPECT_EQ(scheduleBatches(batchesOfSizes({8, 9, 8}), 8, order), 3u);
+    EXPECT_EQ(order, (std::vector<std::uint32_t>{1, 0, 2}));
+    EXPECT_EQ(scheduleBatches(batchesOfSizes({7, 1, 7}), 8, order), 0u);
+    EXPECT_EQ(order, (std::vector<std::uint32_t>{0, 1, 2}));
+    EXPECT_EQ(scheduleBatches(Batches{}, 8, order), 0u);
+    EXPECT_TRUE(order.empty());
+}
+
+TEST(Schedule, ContainsEveryBatchOnceForAnyLimit) {
+    Random random(6);
+    std::vector<std::uint32_t> sizes(200);
+    for (auto& size : sizes) size = 1 + random.below(20);
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t large = 0; large < 25; ++large) {
+        const std::size_t count = scheduleBatches(batchesOfSizes(sizes), large, order);
+        for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(sizes[order[i]] >= large, i < count);
+        std::sort(order.begin(), order.end());
+        ASSERT_EQ(order.size(), sizes.size());
+        for (std::uint32_t i = 0; i < order.size(); ++i) ASSERT_EQ(order[i], i);
+    }
+}
+
+}  // namespace
+}  // namespace cairn
