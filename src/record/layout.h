@@ -1,0 +1,67 @@
+/// @file What stands where in a recording; docs/recording.md describes the same for readers in other languages.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "cairn/statistics.h"
+
+namespace cairn::layout {
+
+// Attributes of the root group.
+inline constexpr const char* format_attribute = "format";
+inline constexpr std::string_view format_name = "cairn recording";
+inline constexpr const char* format_version_attribute = "format_version";
+inline constexpr std::int64_t format_version = 1;
+inline constexpr const char* version_attribute = "cairn_version";
+inline constexpr const char* machine_attribute = "machine";
+inline constexpr const char* rate_attribute = "frames_per_second";
+
+inline constexpr const char* scene = "scene";        ///< the scene file's text
+inline constexpr const char* settings = "settings";  ///< a group with one attribute per field
+
+// One row per frame each.
+inline constexpr const char* frames = "frames";
+inline constexpr const char* time = "frames/time";
+inline constexpr const char* position = "frames/position";
+inline constexpr const char* orientation = "frames/orientation";
+inline constexpr const char* linear_velocity = "frames/linear_velocity";
+inline constexpr const char* angular_velocity = "frames/angular_velocity";
+inline constexpr const char* asleep = "frames/asleep";
+inline constexpr const char* kinetic_energy = "frames/kinetic_energy";
+inline constexpr const char* potential_energy = "frames/potential_energy";
+inline constexpr const char* statistics = "statistics";
+inline constexpr const char* stage_ms = "statistics/stage_ms";
+inline constexpr const char* stages_attribute =
+    "stages";  ///< of the group statistics: names of the columns of stage_ms
+
+/// A member of Statistics and its data set.
+template <typename Value>
+struct StatisticsColumn {
+    const char* name;
+    const char* unit;
+    Value Statistics::*member;
+};
+
+inline constexpr std::array<StatisticsColumn<std::int64_t>, 12> counters{{
+    {"statistics/contacts", "1", &Statistics::contacts},
+    {"statistics/penetrating_contacts", "1", &Statistics::penetrating_contacts},
+    {"statistics/corrected_contacts", "1", &Statistics::corrected_contacts},
+    {"statistics/uncorrected_contacts", "1", &Statistics::uncorrected_contacts},
+    {"statistics/displaced_bodies", "1", &Statistics::displaced_bodies},
+    {"statistics/global_iterations", "1", &Statistics::global_iterations},
+    {"statistics/shock_iterations", "1", &Statistics::shock_iterations},
+    {"statistics/shock_batches", "1", &Statistics::shock_batches},
+    {"statistics/batches", "1", &Statistics::batches},
+    {"statistics/largest_batch", "1", &Statistics::largest_batch},
+    {"statistics/asleep", "1", &Statistics::asleep},
+    {"statistics/woken", "1", &Statistics::woken},
+}};
+
+inline constexpr std::array<StatisticsColumn<double>, 2> overlaps{{
+    {"statistics/largest_overlap", "m", &Statistics::largest_overlap},
+    {"statistics/mean_overlap", "m", &Statistics::mean_overlap},
+}};
+
+}  // namespace cairn::layout

@@ -1,0 +1,155 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cairn/recording.h"
+#include "record/attributes.h"
+#include "record/file_check.h"
+#include "record/frame_series.h"
+
+namespace cairn {
+
+namespace {
+
+using hdf5::checked;
+
+hdf5::File openFile(const std::filesystem::path& path, const FileState state) {
+    // A file that its writer did not close (yet) can only be opened as a reader beside a writer.
+    const unsigned flags = state.closed ? H5F_ACC_RDONLY : H5F_ACC_RDONLY | H5F_ACC_SWMR_READ;
+    return hdf5::File(H5Fopen(path.c_str(), flags, H5P_DEFAULT), path, "is damaged, or truncated");
+}
+
+void requireRecording(const hdf5::File& file, const std::filesystem::path& path) {
+    const auto format = hdf5::readAttribute(file.get(), path, layout::format_attribute);
+    if (format != SettingValue(std::string(layout::format_name))) {
+        throw IoError(fmt::format("{}: is an HDF5 file, but not a recording of Cairn", path.string()));
+    }
+    const auto format_version = hdf5::readAttribute(file.get(), path, layout::format_version_attribute);
+    if (format_version != SettingValue(layout::format_version)) {
+        throw IoError(
+            fmt::format("{}: is a recording in another format version than {}, which this Cairn reads; "
+                        "use the version of Cairn that wrote it",
+                        path.string(), layout::format_version));
+    }
+}
+
+Scene readRecordedScene(const hdf5::File& file, const std::filesystem::path& path) {
+    const std::string text = hdf5::readText(file, path, layout::scene);
+    try {
+        return parseScene(text, path.string() + ": scene");
+    } catch (const InputError& error) {
+        throw IoError(fmt::format("{}: is damaged: its scene is refused: {}", path.string(), error.what()));
+    }
+}
+
+std::string textAttribute(const hdf5::File& file, const std::filesystem::path& path, const char* name) {
+    const auto value = hdf5::readAttribute(file.get(), path, name);
+    const auto* text = value ? std::get_if<std::string>(&*value) : nullptr;
+    return text != nullptr ? *text : "unknown";
+}
+
+}  // namespace
+
+struct RecordingReader::Impl {
+    explicit Impl(const std::filesystem::path& file_path) : path(file_path) {
+        const FileState state = checkFile(path);
+        file = openFile(path, state);
+        requireRecording(file, path);
+        info.scene = readRecordedScene(file, path);
+        info.bodies = info.scene.bodies.size();
+        info.version = textAttribute(file, path, layout::version_attribute);
+        info.machine = textAttribute(file, path, layout::machine_attribute);
+        info.settings = hdf5::readAttributes(
+            hdf5::Group(H5Gopen2(file.get(), layout::settings, H5P_DEFAULT), path, "settings"), path);
+        series.emplace(file, path, info.bodies);
+        info.frames = countFrames();
+        if (!state.closed) requireAllInFile(path);
+        quaternions.resize(info.bodies);
+    }
+
+    ~Impl() {
+        const hdf5::QuietErrors quiet;
+        series.reset();
+        file.close();
+    }
+
+    /// Frames that were written to the end: those whose time, which is written last, is there.
+    std::size_t countFrames() {
+        std::vector<double> times(series->time.frames());
+        series->time.readAll(times.data());
+        const auto end = std::find_if(times.begin(), times.end(), [](double t) { return std::isnan(t); });
+        auto frames = static_cast<hsize_t>(end - times.begin());
+        series->forEachButTime([&](const hdf5::SeriesReader& s) { frames = std::min(frames, s.frames()); });
+        return frames;
+    }
+
+    /// HDF5 does not compare the length of a file that was not closed with what it refers to.
+    void requireAllInFile(const std::filesystem::path& name) {
+        haddr_t end = 0;
+        const auto visit = [&](const hdf5::SeriesReader& s) {
+            for (hsize_t frame = 0; frame < info.frames; ++frame) end = std::max(end, s.endInFile(frame));
+        };
+        visit(series->time);
+        series->forEachButTime(visit);
+        requireLength(name, end);
+    }
+
+    std::filesystem::path path;
+    hdf5::File file;
+    RecordingInfo info;
+    std::optional<hdf5::FrameSeries<hdf5::SeriesReader>> series;
+    mutable std::vector<std::array<double, 4>> quaternions;  ///< w, x, y, z
+};
+
+RecordingReader::RecordingReader(const std::filesystem::path& file) {
+    const hdf5::QuietErrors quiet;
+    impl_ = std::make_unique<Impl>(file);
+}
+
+RecordingReader::~RecordingReader() = default;
+RecordingReader::RecordingReader(RecordingReader&&) noexcept = default;
+
+const RecordingInfo& RecordingReader::info() const {
+    return impl_->info;
+}
+
+Frame RecordingReader::frame(std::size_t index) const {
+    const Impl& impl = *impl_;
+    if (index >= impl.info.frames) {
+        throw InputError(fmt::format("{}: there is no frame {}, the recording has {} frames, counted from 0",
+                                     impl.path.string(), index, impl.info.frames));
+    }
+    const hdf5::QuietErrors quiet;
+    const auto& series = *impl.series;
+    const std::size_t bodies = impl.info.bodies;
+    Frame frame;
+    frame.position.resize(bodies);
+    frame.orientation.resize(bodies);
+    frame.linear_velocity.resize(bodies);
+    frame.angular_velocity.resize(bodies);
+    frame.asleep.resize(bodies);
+    series.time.read(index, &frame.time);
+    series.position.read(index, frame.position.data());
+    series.orientation.read(index, impl.quaternions.data());
+    series.linear_velocity.read(index, frame.linear_velocity.data());
+    series.angular_velocity.read(index, frame.angular_velocity.data());
+    series.asleep.read(index, frame.asleep.data());
+    series.kinetic_energy.read(index, &frame.kinetic_energy);
+    series.potential_energy.read(index, &frame.potential_energy);
+    series.stage_ms.read(index, frame.statistics.stage_ms.data());
+    for (std::size_t i = 0; i < layout::counters.size(); ++i) {
+        series.counters[i].read(index, &(frame.statistics.*layout::counters[i].member));
+    }
+    for (std::size_t i = 0; i < layout::overlaps.size(); ++i) {
+        series.overlaps[i].read(index, &(frame.statistics.*layout::overlaps[i].member));
+    }
+    for (std::size_t i = 0; i < bodies; ++i) {
+        const std::array<double, 4>& q = impl.quaternions[i];
+        frame.orientation[i] = Quat(q[0], q[1], q[2], q[3]);
+    }
+    return frame;
+}
+
+}  // namespace cairn

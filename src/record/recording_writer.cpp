@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <numeric>
+
+#include "cairn/recording.h"
+#include "cairn/version.h"
+#include "record/attributes.h"
+#include "record/frame_series.h"
+#include "record/machine.h"
+
+namespace cairn {
+
+namespace {
+
+using hdf5::checked;
+
+/// A new file that others may read while it grows.
+hdf5::File createFile(const std::filesystem::path& path) {
+    const hdf5::Properties access(H5Pcreate(H5P_FILE_ACCESS), path, "cannot be created");
+    // Single writer, multiple readers needs the file format of HDF5 1.10, which later versions read as well.
+    checked(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110), path, "cannot be created");
+    checked(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), path, "cannot be created");
+    return hdf5::File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), path, "cannot be created");
+}
+
+std::string stageNames() {
+    return std::accumulate(
+        stage_names.begin() + 1, stage_names.end(), std::string(stage_names[0]),
+        [](std::string all, std::string_view name) { return std::move(all) + ',' + std::string(name); });
+}
+
+void writeMetadata(const hdf5::File& file, const std::filesystem::path& path, const Scene& scene,
+                   const Settings& settings) {
+    hdf5::writeAttribute(file.get(), path, layout::format_attribute, std::string(layout::format_name));
+    hdf5::writeAttribute(file.get(), path, layout::format_version_attribute, layout::format_version);
+    hdf5::writeAttribute(file.get(), path, layout::version_attribute, std::string(version));
+    hdf5::writeAttribute(file.get(), path, layout::machine_attribute, describeMachine());
+    hdf5::writeAttribute(file.get(), path, layout::rate_attribute, simulation_steps_per_second);
+    hdf5::writeText(file, path, layout::scene, formatScene(scene));
+    const hdf5::Group fields = hdf5::createGroup(file, path, layout::settings);
+    for (const SettingField& field : settingFields()) {
+        hdf5::writeAttribute(fields.get(), path, std::string(field.name).c_str(), field.get(settings));
+    }
+    hdf5::createGroup(file, path, layout::frames);
+    const hdf5::Group statistics = hdf5::createGroup(file, path, layout::statistics);
+    hdf5::writeAttribute(statistics.get(), path, layout::stages_attribute, stageNames());
+}
+
+void refuseWrongSize(std::size_t size, std::size_t bodies, const char* what) {
+    if (size != bodies) {
+        throw InputError(
+            fmt::format("the frame has {} entries in {}, but the recorded scene has {} bodies", size, what, bodies));
+    }
+}
+
+}  // namespace
+
+struct RecordingWriter::Impl {
+    Impl(const std::filesystem::path& file_path, const Scene& scene, const Settings& settings)
+        : path(file_path), bodies(scene.bodies.size()), file(createFile(path)) {
+        writeMetadata(file, path, scene, settings);
+        series.emplace(file, path, bodies);
+        checked(H5Fstart_swmr_write(file.get()), path, "cannot be made readable while it is written");
+        quaternions.resize(bodies);
+    }
+
+    ~Impl() {
+        const hdf5::QuietErrors quiet;
+        series.reset();
+        file.close();
+    }
+
+    void write(const Frame& frame) {
+        for (std::size_t i = 0; i < bodies; ++i) {
+            const Quat& q = frame.orientation[i];
+            quaternions[i] = {q.w(), q.x(), q.y(), q.z()};
+        }
+        series->position.append(frames, frame.position.data());
+        series->orientation.append(frames, quaternions.data());
+        series->linear_velocity.append(frames, frame.linear_velocity.data());
+        series->angular_velocity.append(frames, frame.angular_velocity.data());
+        series->asleep.append(frames, frame.asleep.data());
+        series->kinetic_energy.append(frames, &frame.kinetic_energy);
+        series->potential_energy.append(frames, &frame.potential_energy);
+        series->stage_ms.append(frames, frame.statistics.stage_ms.data());
+        for (std::size_t i = 0; i < layout::counters.size(); ++i) {
+            series->counters[i].append(frames, &(frame.statistics.*layout::counters[i].member));
+        }
+        for (std::size_t i = 0; i < layout::overlaps.size(); ++i) {
+            series->overlaps[i].append(frames, &(frame.statistics.*layout::overlaps[i].member));
+        }
+        series->forEachButTime([](hdf5::SeriesWriter& s) { s.flush(); });
+        series->time.append(frames, &frame.time);
+        series->time.flush();
+        ++frames;
+    }
+
+    std::filesystem::path path;
+    std::size_t bodies;
+    hdf5::File file;
+    std::optional<hdf5::FrameSeries<hdf5::SeriesWriter>> series;
+    std::vector<std::array<double, 4>> quaternions;  ///< w, x, y, z
+    hsize_t frames = 0;
+    bool failed = false;
+};
+
+RecordingWriter::RecordingWriter(const std::filesystem::path& file, const Scene& scene, const Settings& settings) {
+    const hdf5::QuietErrors quiet;
+    impl_ = std::make_unique<Impl>(file, scene, settings);
+}
+
+RecordingWriter::~RecordingWriter() = default;
+
+void RecordingWriter::append(const Frame& frame) {
+    static_assert(sizeof(Vec3) == 3 * sizeof(double), "rows of vectors are written as they are");
+    Impl& impl = *impl_;
+    refuseWrongSize(frame.position.size(), impl.bodies, "position");
+    refuseWrongSize(frame.orientation.size(), impl.bodies, "orientation");
+    refuseWrongSize(frame.linear_velocity.size(), impl.bodies, "linear_velocity");
+    refuseWrongSize(frame.angular_velocity.size(), impl.bodies, "angular_velocity");
+    refuseWrongSize(frame.asleep.size(), impl.bodies, "asleep");
+    if (!impl.file) throw InputError(fmt::format("{}: the recording is closed", impl.path.string()));
+    if (impl.failed) throw IoError(fmt::format("{}: not written, as an earlier frame failed", impl.path.string()));
+    const hdf5::QuietErrors quiet;
+    try {
+        impl.write(frame);
+    } catch (const IoError&) {
+        impl.failed = true;
+        throw;
+    }
+}
+
+void RecordingWriter::close() {
+    Impl& impl = *impl_;
+    const hdf5::QuietErrors quiet;
+    impl.series.reset();
+    checked(impl.file.close(), impl.path, "cannot be closed");
+}
+
+}  // namespace cairn

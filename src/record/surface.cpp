@@ -1,0 +1,93 @@
+#include "record/surface.h"
+
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+
+namespace cairn {
+
+namespace {
+
+// Enough that a ball looks round; thousands of them in hundreds of frames must still fit on a disk.
+constexpr int segments = 12;      ///< around the axis
+constexpr int rings_per_cap = 3;  ///< from a pole to the equator
+
+void addPolygon(Surface& surface, std::initializer_list<std::int32_t> corners) {
+    surface.corners.insert(surface.corners.end(), corners);
+    surface.ends.push_back(static_cast<std::int32_t>(surface.corners.size()));
+}
+
+Surface boxSurface(const Box& box) {
+    Surface surface;
+    for (int i = 0; i < 8; ++i) {
+        const Vec3 sign((i & 1) != 0 ? 0.5 : -0.5, (i & 2) != 0 ? 0.5 : -0.5, (i & 4) != 0 ? 0.5 : -0.5);
+        surface.points.emplace_back(sign.cwiseProduct(box.size));
+    }
+    addPolygon(surface, {0, 4, 6, 2});
+    addPolygon(surface, {1, 3, 7, 5});
+    addPolygon(surface, {0, 1, 5, 4});
+    addPolygon(surface, {2, 6, 7, 3});
+    addPolygon(surface, {0, 2, 3, 1});
+    addPolygon(surface, {4, 5, 7, 6});
+    return surface;
+}
+
+/// A capsule about z; a sphere if half_length is zero.
+Surface roundSurface(double radius, double half_length) {
+    Surface surface;
+    const auto addRing = [&](double latitude, double shift) {
+        for (int s = 0; s < segments; ++s) {
+            const double longitude = 2 * std::numbers::pi * s / segments;
+            surface.points.emplace_back(radius * std::cos(latitude) * std::cos(longitude),
+                                        radius * std::cos(latitude) * std::sin(longitude),
+                                        radius * std::sin(latitude) + shift);
+        }
+    };
+    int rings = 0;
+    for (int r = 1; r <= rings_per_cap; ++r, ++rings) {
+        addRing(std::numbers::pi / 2 * (r - rings_per_cap) / rings_per_cap, -half_length);
+    }
+    // A sphere has one equator, a capsule two.
+    for (int r = half_length > 0 ? 0 : 1; r < rings_per_cap; ++r, ++rings) {
+        addRing(std::numbers::pi / 2 * r / rings_per_cap, half_length);
+    }
+    const auto south = static_cast<std::int32_t>(surface.points.size());
+    surface.points.emplace_back(0, 0, -half_length - radius);
+    surface.points.emplace_back(0, 0, half_length + radius);
+    const auto at = [](int ring, int s) { return ring * segments + s % segments; };
+    for (int s = 0; s < segments; ++s) {
+        addPolygon(surface, {south, at(0, s + 1), at(0, s)});
+        for (int r = 0; r + 1 < rings; ++r) {
+            addPolygon(surface, {at(r, s), at(r, s + 1), at(r + 1, s + 1), at(r + 1, s)});
+        }
+        addPolygon(surface, {at(rings - 1, s), at(rings - 1, s + 1), south + 1});
+    }
+    return surface;
+}
+
+Surface planeSurface(const HalfSpace& plane, const PlaneExtent& extent) {
+    const Vec3 normal = plane.normal.normalized();
+    // The offset is along the unit normal, whatever the length of the given one.
+    const Vec3 centre = extent.centre + (plane.offset - normal.dot(extent.centre)) * normal;
+    const Vec3 u = normal.unitOrthogonal() * extent.half_edge;
+    const Vec3 v = normal.cross(u);
+    Surface surface;
+    surface.points = {centre - u - v, centre + u - v, centre + u + v, centre - u + v};
+    addPolygon(surface, {0, 1, 2, 3});
+    return surface;
+}
+
+}  // namespace
+
+Surface makeSurface(const Shape& shape, const PlaneExtent& extent) {
+    struct Visitor {
+        const PlaneExtent& extent;
+        Surface operator()(const Sphere& s) const { return roundSurface(s.radius, 0); }
+        Surface operator()(const Box& b) const { return boxSurface(b); }
+        Surface operator()(const Capsule& c) const { return roundSurface(c.radius, c.length / 2); }
+        Surface operator()(const HalfSpace& h) const { return planeSurface(h, extent); }
+    };
+    return std::visit(Visitor{extent}, shape);
+}
+
+}  // namespace cairn
