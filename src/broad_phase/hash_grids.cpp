@@ -42,8 +42,10 @@ CellKey cellOf(const Vec3& point, double edge_inv, std::int64_t level) {
 
 /// Bounds::overlaps without branches, since nobody can predict them.
 bool overlap(const Bounds& p, const Bounds& q) {
-    return (p.lower.x() <= q.upper.x()) & (q.lower.x() <= p.upper.x()) & (p.lower.y() <= q.upper.y()) &
-           (q.lower.y() <= p.upper.y()) & (p.lower.z() <= q.upper.z()) & (q.lower.z() <= p.upper.z());
+    const auto inOrder = [](double a, double b) { return static_cast<unsigned>(a <= b); };
+    return (inOrder(p.lower.x(), q.upper.x()) & inOrder(q.lower.x(), p.upper.x()) &
+            inOrder(p.lower.y(), q.upper.y()) & inOrder(q.lower.y(), p.upper.y()) &
+            inOrder(p.lower.z(), q.upper.z()) & inOrder(q.lower.z(), p.upper.z())) != 0;
 }
 
 }  // namespace
