@@ -43,9 +43,9 @@ CellKey cellOf(const Vec3& point, double edge_inv, std::int64_t level) {
 /// Bounds::overlaps without branches, since nobody can predict them.
 bool overlap(const Bounds& p, const Bounds& q) {
     const auto inOrder = [](double a, double b) { return static_cast<unsigned>(a <= b); };
-    return (inOrder(p.lower.x(), q.upper.x()) & inOrder(q.lower.x(), p.upper.x()) &
-            inOrder(p.lower.y(), q.upper.y()) & inOrder(q.lower.y(), p.upper.y()) &
-            inOrder(p.lower.z(), q.upper.z()) & inOrder(q.lower.z(), p.upper.z())) != 0;
+    return (inOrder(p.lower.x(), q.upper.x()) & inOrder(q.lower.x(), p.upper.x()) & inOrder(p.lower.y(), q.upper.y()) &
+            inOrder(q.lower.y(), p.upper.y()) & inOrder(p.lower.z(), q.upper.z()) &
+            inOrder(q.lower.z(), p.upper.z())) != 0;
 }
 
 }  // namespace
