@@ -13,27 +13,46 @@ PropagationOutcome Propagation::run(const Candidate& candidate, const ContactGra
     displacement_ = candidate.displacement;
     other_ = candidate.other;
     moved_.clear();
-    pending_.clear();
+    stack_.clear();
+    shorter_.clear();
     if (limit == 0) return PropagationOutcome::abandoned;
     note(candidate.body, 1);
-    while (!pending_.empty()) {
-        std::pop_heap(pending_.begin(), pending_.end());
-        const Push push = pending_.back();
-        pending_.pop_back();
-        // A body that was pushed further in the meantime has already been processed with that.
-        if (push.share < share(push.body)) continue;
+    stack_.push_back({1, candidate.body});
+    for (Push push{}; pop(push);) {
         if (!pushNeighbours(push, graph)) return PropagationOutcome::invalid;
         if (moved_.size() > limit) return PropagationOutcome::abandoned;
     }
     return PropagationOutcome::valid;
 }
 
-void Propagation::note(BodyIndex body, double share) {
+/// Takes the next push. @return false if there is none
+bool Propagation::pop(Push& push) {
+    if (!stack_.empty()) {
+        push = stack_.back();
+        stack_.pop_back();
+        return true;
+    }
+    while (!shorter_.empty()) {
+        std::pop_heap(shorter_.begin(), shorter_.end());
+        push = shorter_.back();
+        shorter_.pop_back();
+        // A body that was pushed further in the meantime has already been processed with that.
+        if (push.share == share(push.body)) return true;
+    }
+    return false;
+}
+
+/// Associates a displacement with a body if it is longer than the one it has. @return whether it is
+bool Propagation::note(BodyIndex body, double share) {
     Note& known = notes_[body];
-    if (known.search != search_) moved_.push_back(body);
+    if (known.search != search_) {
+        if (!(share > 0)) return false;
+        moved_.push_back(body);
+    } else if (!(share > known.share)) {
+        return false;
+    }
     known = {search_, share};
-    pending_.push_back({share, body});
-    std::push_heap(pending_.begin(), pending_.end());
+    return true;
 }
 
 /// Algorithm 1 for one body. @return false if the search is invalid
@@ -50,8 +69,14 @@ bool Propagation::pushNeighbours(const Push& push, const ContactGraph& graph) {
         if (!(approach > 0 && approach > gap)) continue;
         if (graph.bodies.isFixed(neighbour) || neighbour == other_) return false;
         // (2.3.6) with all vectors as multiples of the first: (s − e)/s · dX, s = share·towards.
-        const double share_of_neighbour = gap > 0 ? push.share - gap / towards : push.share;
-        if (share_of_neighbour > share(neighbour)) note(neighbour, share_of_neighbour);
+        if (gap > 0) {
+            const double rest = push.share - gap / towards;
+            if (!note(neighbour, rest)) continue;
+            shorter_.push_back({rest, neighbour});
+            std::push_heap(shorter_.begin(), shorter_.end());
+        } else if (note(neighbour, push.share)) {
+            stack_.push_back({push.share, neighbour});
+        }
     }
     return true;
 }

@@ -3,9 +3,9 @@
 /// A pushed body moves by the displacement of the one that pushes it, or by a fraction of it (2.3.6). So every
 /// displacement of a search is a multiple of the first, and one number per body, its *share* in [0, 1], is enough. A
 /// larger share of X never means a smaller one of Y and never fewer pushes; the longest displacement of each body (and
-/// whether the search is valid) therefore does not depend on the order in which bodies are processed. Taking the
-/// longest first, where Algorithm 3 takes the latest, gives the same result and processes each body only once, since
-/// no body hands on more than it has.
+/// whether the search is valid) therefore does not depend on the order in which bodies are processed. Algorithm 3 takes
+/// the latest push first; so do we among pushes of equal length, but longer ones go before shorter ones. Since no body
+/// hands on more than it has, each body is then processed once, where a plain stack can come back to it many times.
 #pragma once
 
 #include <cstddef>
@@ -67,12 +67,14 @@ class Propagation {
         friend bool operator<(const Push& left, const Push& right) { return left.share < right.share; }
     };
 
-    void note(BodyIndex body, double share);
+    bool note(BodyIndex body, double share);
     bool pushNeighbours(const Push& push, const ContactGraph& graph);
+    bool pop(Push& push);
 
     std::vector<Note> notes_;  ///< [slots]
     std::vector<BodyIndex> moved_;
-    std::vector<Push> pending_;  ///< max-heap
+    std::vector<Push> stack_;    ///< pushes as long as the present one, which is the longest
+    std::vector<Push> shorter_;  ///< max-heap of the others
     std::uint64_t search_ = 0;   ///< number of the present search; no entry of notes_ is ever cleared
     Vec3 displacement_ = Vec3::Zero();
     BodyIndex other_ = 0;
