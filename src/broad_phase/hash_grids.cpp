@@ -2,31 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <functional>
+
+#include "broad_phase/neighbourhood.h"
 
 namespace cairn {
 
 namespace {
 
-/// Cells per work item. Items are dealt out in turn, which spreads dense regions over the workers.
-constexpr std::size_t cells_per_item = 64;
+/// Blocks per work item. Items are dealt out in turn, which spreads dense regions over the workers.
+constexpr std::size_t blocks_per_item = 4;
 /// Below this many bodies one worker is faster than several.
 constexpr std::size_t serial_limit = 256;
-
-/// One half of the 26 neighbours: of each two that lie opposite, one.
-constexpr std::array<std::array<std::int64_t, 3>, 13> half_neighbourhood = {{{1, 0, 0},
-                                                                             {-1, 1, 0},
-                                                                             {0, 1, 0},
-                                                                             {1, 1, 0},
-                                                                             {-1, -1, 1},
-                                                                             {0, -1, 1},
-                                                                             {1, -1, 1},
-                                                                             {-1, 0, 1},
-                                                                             {0, 0, 1},
-                                                                             {1, 0, 1},
-                                                                             {-1, 1, 1},
-                                                                             {0, 1, 1},
-                                                                             {1, 1, 1}}};
 
 /// ⌊x · edge_inv⌋; std::floor is a function call on the baseline processor.
 std::int64_t cellCoordinate(double x, double edge_inv) {
@@ -35,17 +23,28 @@ std::int64_t cellCoordinate(double x, double edge_inv) {
     return truncated - (static_cast<double>(truncated) > scaled ? 1 : 0);
 }
 
-CellKey cellOf(const Vec3& point, double edge_inv, std::int64_t level) {
+/// Integer coordinates of a cell.
+struct CellCoordinates {
+    std::int64_t x;
+    std::int64_t y;
+    std::int64_t z;
+};
+
+CellCoordinates cellOf(const Vec3& point, double edge_inv) {
     return {cellCoordinate(point.x(), edge_inv), cellCoordinate(point.y(), edge_inv),
-            cellCoordinate(point.z(), edge_inv), level};
+            cellCoordinate(point.z(), edge_inv)};
 }
 
 /// Bounds::overlaps without branches, since nobody can predict them.
 bool overlap(const Bounds& p, const Bounds& q) {
-    const auto inOrder = [](double a, double b) { return static_cast<unsigned>(a <= b); };
-    return (inOrder(p.lower.x(), q.upper.x()) & inOrder(q.lower.x(), p.upper.x()) & inOrder(p.lower.y(), q.upper.y()) &
-            inOrder(q.lower.y(), p.upper.y()) & inOrder(p.lower.z(), q.upper.z()) &
-            inOrder(q.lower.z(), p.upper.z())) != 0;
+    return (p.lower.x() <= q.upper.x()) & (q.lower.x() <= p.upper.x()) & (p.lower.y() <= q.upper.y()) &
+           (q.lower.y() <= p.upper.y()) & (p.lower.z() <= q.upper.z()) & (q.lower.z() <= p.upper.z());
+}
+
+/// Calls work(position) for each set bit, ascending.
+template <class Work>
+void forEachPosition(std::uint64_t positions, const Work& work) {
+    for (; positions != 0; positions &= positions - 1) work(static_cast<unsigned>(std::countr_zero(positions)));
 }
 
 }  // namespace
@@ -58,15 +57,18 @@ int HashGrids::level(BodyIndex body) const {
 void HashGrids::findPairs(const BroadPhaseInput& input, const Executor& executor, std::vector<BodyPair>& pairs) {
     const std::size_t slots = input.kind.size();
     levels_.choose(input);
-    fillCells(input);
+    enterBlocks(input);
+    numberCells();
+    placeEntries(input);
 
     const std::size_t workers = slots < serial_limit ? 1 : static_cast<std::size_t>(executor.threads());
     found_.resize(2 * workers);
     const auto search = [&](std::size_t worker, int) {
+        const auto& blocks = table_.blocks();
         PairBuffer& in_cells = found_[worker];
         in_cells.clear();
-        for (std::size_t begin = worker * cells_per_item; begin < cells_.size(); begin += workers * cells_per_item) {
-            searchCells(begin, std::min(begin + cells_per_item, cells_.size()), in_cells);
+        for (std::size_t b = 0; b < blocks.size(); ++b) {
+            if (b / blocks_per_item % workers == worker) searchBlock(blocks[b], in_cells);
         }
         PairBuffer& with_apart = found_[workers + worker];
         with_apart.clear();
@@ -76,52 +78,89 @@ void HashGrids::findPairs(const BroadPhaseInput& input, const Executor& executor
     rows_.sort(found_, slots, executor, pairs);
 }
 
-void HashGrids::fillCells(const BroadPhaseInput& input) {
+void HashGrids::enterBlocks(const BroadPhaseInput& input) {
     const auto level = levels_.ofBodies();
     const auto slots = static_cast<BodyIndex>(level.size());
-    table_.reset(slots);
-    cells_.clear();
+    table_.reset();
     apart_.clear();
-    cell_of_body_.resize(slots);
+    address_.resize(slots);
     for (BodyIndex i = 0; i < slots; ++i) {
-        cell_of_body_[i] = CellTable::none;
         if (level[i] == GridLevels::apart) apart_.push_back(i);
         if (level[i] < 0) continue;
         const auto own_level = static_cast<std::size_t>(level[i]);
-        const std::uint32_t cell = table_.enter(cellOf(input.bounds[i].lower, levels_.edgeInv(own_level), level[i]));
-        cell_of_body_[i] = cell;
-        if (cell == cells_.size()) cells_.push_back({0, 0, 0});
+        const CellCoordinates at = cellOf(input.bounds[i].lower, levels_.edgeInv(own_level));
+        const std::uint32_t block = table_.enter({at.x >> 2, at.y >> 2, at.z >> 2, level[i]});
+        const auto position = static_cast<unsigned>((at.x & 3) + 4 * (at.y & 3) + 16 * (at.z & 3));
+        table_.blocks()[block].occupied |= std::uint64_t{1} << position;
+        address_[i] = {block, position};
+    }
+}
+
+void HashGrids::numberCells() {
+    std::uint32_t cells = 0;
+    for (Block& block : table_.blocks()) {
+        block.first_cell = cells;
+        cells += static_cast<std::uint32_t>(std::popcount(block.occupied));
+    }
+    cells_.assign(cells, {0, 0, 0});
+}
+
+void HashGrids::placeEntries(const BroadPhaseInput& input) {
+    const auto level = levels_.ofBodies();
+    const auto slots = static_cast<BodyIndex>(level.size());
+    const auto& blocks = table_.blocks();
+    for (BodyIndex i = 0; i < slots; ++i) {
+        if (level[i] < 0) continue;
+        Address& address = address_[i];
+        address.cell_or_position = blocks[address.block].cell(address.cell_or_position);
         // For now numbers of bodies, not offsets.
-        ++(input.kind[i] == BodyKind::dynamic ? cells_[cell].fixed_begin : cells_[cell].end);
+        Cell& cell = cells_[address.cell_or_position];
+        ++(input.kind[i] == BodyKind::dynamic ? cell.fixed_begin : cell.end);
     }
 
     std::uint32_t next = 0;
     for (Cell& cell : cells_) {
         const std::uint32_t dynamic = cell.fixed_begin;
         const std::uint32_t fixed = cell.end;
-        // Both cursors move to their final values while the bodies are put down.
+        // Both ends move to their final values while the bodies are put down.
         cell = {next, next, next + dynamic};
         next += dynamic + fixed;
     }
+
     entries_.resize(next);
     for (BodyIndex i = 0; i < slots; ++i) {
-        if (cell_of_body_[i] == CellTable::none) continue;
-        Cell& cell = cells_[cell_of_body_[i]];
-        const std::uint32_t place = input.kind[i] == BodyKind::dynamic ? cell.fixed_begin++ : cell.end++;
-        entries_[place] = {input.bounds[i], i};
+        if (level[i] < 0) continue;
+        Cell& cell = cells_[address_[i].cell_or_position];
+        entries_[input.kind[i] == BodyKind::dynamic ? cell.fixed_begin++ : cell.end++] = {input.bounds[i], i};
     }
 }
 
-void HashGrids::searchCells(std::size_t begin, std::size_t end, PairBuffer& found) const {
-    for (std::size_t c = begin; c < end; ++c) {
-        searchInside(cells_[c], found);
-        const CellKey& key = table_.key(c);
-        for (const auto& [dx, dy, dz] : half_neighbourhood) {
-            const std::uint32_t other = table_.find({key.x + dx, key.y + dy, key.z + dz, key.level});
-            if (other != CellTable::none) searchBetween(cells_[c], cells_[other], found);
+std::span<const HashGrids::Cell> HashGrids::cellsOf(const Block& block) const {
+    return std::span(cells_).subspan(block.first_cell, static_cast<std::size_t>(std::popcount(block.occupied)));
+}
+
+void HashGrids::searchBlock(const Block& block, PairBuffer& found) const {
+    std::uint32_t needed = 0;
+    forEachPosition(block.occupied, [&](unsigned position) { needed |= needed_blocks[position]; });
+    std::array<const Block*, 27> around{};
+    forEachPosition(needed, [&](unsigned slot) {
+        const auto& [x, y, z, level] = block.key;
+        around[slot] =
+            slot == own_block ? &block : table_.find({x + slot % 3 - 1, y + slot / 3 % 3 - 1, z + slot / 9 - 1, level});
+    });
+
+    const Cell* cell = &cells_[block.first_cell];
+    forEachPosition(block.occupied, [&](unsigned position) {
+        searchInside(*cell, found);
+        for (const RelativeCell& neighbour : half_neighbourhood[position]) {
+            const Block* const other = around[neighbour.block];
+            if (other != nullptr && other->has(neighbour.position)) {
+                searchBetween(*cell, cells_[other->cell(neighbour.position)], found);
+            }
         }
-        if (static_cast<std::size_t>(key.level) + 1 < levels_.levels()) searchCoarser(c, found);
-    }
+        ++cell;
+    });
+    if (static_cast<std::size_t>(block.key.level) + 1 < levels_.levels()) searchCoarser(block, found);
 }
 
 void HashGrids::searchInside(const Cell& cell, PairBuffer& found) const {
@@ -139,26 +178,50 @@ void HashGrids::searchBetween(const Cell& first, const Cell& second, PairBuffer&
     for (std::uint32_t i = first.fixed_begin; i < first.end; ++i) testRow(entries[i], dynamic, found);
 }
 
-void HashGrids::searchCoarser(std::size_t cell, PairBuffer& found) const {
-    const Cell& own = cells_[cell];
-    Bounds around = entries_[own.begin].bounds;
-    for (std::uint32_t i = own.begin + 1; i < own.end; ++i) {
+void HashGrids::searchCoarser(const Block& block, PairBuffer& found) const {
+    const auto cells = cellsOf(block);
+    Bounds around = entries_[cells.front().begin].bounds;
+    for (std::uint32_t i = cells.front().begin + 1; i < cells.back().end; ++i) {
         around.lower = around.lower.cwiseMin(entries_[i].bounds.lower);
         around.upper = around.upper.cwiseMax(entries_[i].bounds.upper);
     }
-    for (std::size_t level = static_cast<std::size_t>(table_.key(cell).level) + 1; level < levels_.levels(); ++level) {
-        const auto number = static_cast<std::int64_t>(level);
-        const CellKey low = cellOf(around.lower, levels_.edgeInv(level), number);
-        const CellKey high = cellOf(around.upper, levels_.edgeInv(level), number);
-        for (std::int64_t z = low.z - 1; z <= high.z; ++z) {
-            for (std::int64_t y = low.y - 1; y <= high.y; ++y) {
-                for (std::int64_t x = low.x - 1; x <= high.x; ++x) {
-                    const std::uint32_t other = table_.find({x, y, z, number});
-                    if (other != CellTable::none) searchBetween(own, cells_[other], found);
+    for (std::size_t level = static_cast<std::size_t>(block.key.level) + 1; level < levels_.levels(); ++level) {
+        const CellCoordinates lower = cellOf(around.lower, levels_.edgeInv(level));
+        const CellCoordinates high = cellOf(around.upper, levels_.edgeInv(level));
+        const CellCoordinates low = {lower.x - 1, lower.y - 1, lower.z - 1};
+        for (std::int64_t z = low.z >> 2; z <= high.z >> 2; ++z) {
+            for (std::int64_t y = low.y >> 2; y <= high.y >> 2; ++y) {
+                for (std::int64_t x = low.x >> 2; x <= high.x >> 2; ++x) {
+                    const Block* const coarse = table_.find({x, y, z, static_cast<std::int64_t>(level)});
+                    if (coarse == nullptr) continue;
+                    const std::uint64_t positions =
+                        positionsIn({low.x - 4 * x, high.x - 4 * x}, {low.y - 4 * y, high.y - 4 * y},
+                                    {low.z - 4 * z, high.z - 4 * z});
+                    searchCoarserBlock(block, around, *coarse, positions, found);
                 }
             }
         }
     }
+}
+
+void HashGrids::searchCoarserBlock(const Block& block, const Bounds& around, const Block& coarse,
+                                   std::uint64_t positions, PairBuffer& found) const {
+    const auto entries = std::span(entries_);
+    const auto cells = cellsOf(block);
+    const auto all = entries.subspan(cells.front().begin, cells.back().end - cells.front().begin);
+    forEachPosition(coarse.occupied & positions, [&](unsigned position) {
+        const Cell& other = cells_[coarse.cell(position)];
+        for (std::uint32_t i = other.begin; i < other.end; ++i) {
+            if (!overlap(entries[i].bounds, around)) continue;
+            if (i < other.fixed_begin) {
+                testRow(entries[i], all, found);
+                continue;
+            }
+            for (const Cell& cell : cells) {
+                testRow(entries[i], entries.subspan(cell.begin, cell.fixed_begin - cell.begin), found);
+            }
+        }
+    });
 }
 
 void HashGrids::searchApart(const BroadPhaseInput& input, std::size_t begin, std::size_t end, PairBuffer& found) const {
@@ -170,8 +233,8 @@ void HashGrids::searchApart(const BroadPhaseInput& input, std::size_t begin, std
         std::size_t count = 0;
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
             // Two bodies apart meet when it is the turn of the lower one.
-            const bool once = level[i] >= 0 || (level[i] == GridLevels::apart && i > p);
-            const bool movable = !p_fixed || input.kind[i] == BodyKind::dynamic;
+            const bool once = (level[i] >= 0) | ((level[i] == GridLevels::apart) & (i > p));
+            const bool movable = !p_fixed | (input.kind[i] == BodyKind::dynamic);
             out[count] = {std::min(p, i), std::max(p, i)};
             count += (once & movable & overlap(bounds, input.bounds[i])) ? 1 : 0;
         }

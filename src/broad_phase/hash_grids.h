@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "broad_phase/block_table.h"
 #include "broad_phase/broad_phase.h"
-#include "broad_phase/cell_table.h"
 #include "broad_phase/grid_levels.h"
 #include "broad_phase/pair_rows.h"
 
@@ -18,7 +18,9 @@ namespace cairn {
 /// cell(lower₁) − 1 ≤ cell(lower₂) ≤ cell(upper₁), all in the cells of the coarser level 2. So each cell is compared
 /// with one half of its neighbours and with the few cells of coarser levels around it; every pair comes up once.
 ///
-/// The bodies of a cell are stored side by side, dynamic ones first, so that fixed ones never meet each other.
+/// The hash finds blocks of 4 × 4 × 4 cells, so that most steps to a neighbour need no hash and neighbours lie close
+/// in memory. The bodies of a cell are stored side by side, dynamic ones first, so that fixed ones never meet each
+/// other.
 class HashGrids final : public BroadPhase {
   public:
     void findPairs(const BroadPhaseInput& input, const Executor& executor, std::vector<BodyPair>& pairs) override;
@@ -36,22 +38,32 @@ class HashGrids final : public BroadPhase {
         std::uint32_t fixed_begin;
         std::uint32_t end;
     };
+    /// Where a body lies.
+    struct Address {
+        std::uint32_t block;
+        std::uint32_t cell_or_position;  ///< position in the block until cells are numbered, then the cell's number
+    };
 
-    void fillCells(const BroadPhaseInput& input);
-    void searchCells(std::size_t begin, std::size_t end, PairBuffer& found) const;
+    void enterBlocks(const BroadPhaseInput& input);
+    void numberCells();
+    void placeEntries(const BroadPhaseInput& input);
+    void searchBlock(const Block& block, PairBuffer& found) const;
     void searchInside(const Cell& cell, PairBuffer& found) const;
     void searchBetween(const Cell& first, const Cell& second, PairBuffer& found) const;
-    void searchCoarser(std::size_t cell, PairBuffer& found) const;
+    void searchCoarser(const Block& block, PairBuffer& found) const;
+    void searchCoarserBlock(const Block& block, const Bounds& around, const Block& coarse, std::uint64_t positions,
+                            PairBuffer& found) const;
     void searchApart(const BroadPhaseInput& input, std::size_t begin, std::size_t end, PairBuffer& found) const;
+    std::span<const Cell> cellsOf(const Block& block) const;
     static void testRow(const Entry& entry, std::span<const Entry> others, PairBuffer& found);
 
     GridLevels levels_;
-    CellTable table_;
-    std::vector<Cell> cells_;                  ///< in the numbering of table_
-    std::vector<std::uint32_t> cell_of_body_;  ///< per slot
-    std::vector<Entry> entries_;               ///< grouped by cell
-    std::vector<BodyIndex> apart_;             ///< bodies outside the hierarchy, ascending
-    std::vector<PairBuffer> found_;            ///< [2 · workers] of the cells, then of the bodies apart
+    BlockTable table_;
+    std::vector<Cell> cells_;        ///< numbered as Block describes
+    std::vector<Address> address_;   ///< per slot
+    std::vector<Entry> entries_;     ///< grouped by cell
+    std::vector<BodyIndex> apart_;   ///< bodies outside the hierarchy, ascending
+    std::vector<PairBuffer> found_;  ///< [2 · workers] of the cells, then of the bodies apart
     PairRows rows_;
 };
 
