@@ -1,0 +1,107 @@
+/** What the page knows of a world: the roster of bodies, the frames and the samples for the charts. SI units. */
+
+export type ShapeInfo =
+  | { type: 'sphere'; radius: number }
+  | { type: 'box'; size: [number, number, number] }
+  | { type: 'capsule'; radius: number; length: number }
+  | { type: 'plane'; normal: [number, number, number]; offset: number };
+
+/** A body as the page draws it; `slot` is its place in the arrays of a frame. */
+export interface BodyInfo {
+  slot: number;
+  generation: number;
+  name: string;
+  shape: ShapeInfo;
+  material: number;
+  mass: number | null;
+}
+
+export interface MaterialInfo {
+  name: string;
+  density: number;
+}
+
+/** All bodies of a world; `epoch` grows with every change, frames of another epoch do not fit. */
+export interface Roster {
+  epoch: number;
+  title: string;
+  materials: MaterialInfo[];
+  bodies: Map<number, BodyInfo>;
+  slots: number;
+}
+
+export const present = 1;
+export const asleep = 2;
+export const fixed = 4;
+
+/** The contacts of one step; three numbers per vector. */
+export interface Contacts {
+  count: number;
+  a: Uint32Array;
+  b: Uint32Array;
+  point: Float32Array;
+  normal: Float32Array;
+  distance: Float32Array;
+  impulse: Float32Array;
+}
+
+/** The state at one moment; arrays have one entry (or 3, 4, 6) per slot. Optional ones are there when asked for. */
+export interface Frame {
+  epoch: number;
+  time: number;
+  step: number;
+  slots: number;
+  position: Float32Array;
+  /** x, y, z, w */
+  orientation: Float32Array;
+  flags: Uint8Array;
+  speed?: Float32Array;
+  batch?: Uint32Array;
+  overlap?: Float32Array;
+  level?: Int8Array;
+  stage?: Int16Array;
+  bounds?: Float32Array;
+  moves?: Float32Array;
+  contacts?: Contacts;
+  /** pairs of points */
+  springs?: Float32Array;
+}
+
+/** One simulation step of 1/30 s, for the charts; `values` in the order of `sampleFields`. */
+export interface Sample {
+  time: number;
+  values: Float64Array;
+}
+
+export type LayerName =
+  | 'speed' | 'batch' | 'overlap' | 'level' | 'stage' | 'bounds' | 'moves' | 'contacts';
+
+export type ColourMode = 'material' | 'batch' | 'asleep' | 'speed' | 'overlap' | 'level' | 'stage';
+
+/** What the user sees; shared by live views and recordings. */
+export interface ViewOptions {
+  colour: ColourMode;
+  points: boolean;
+  normals: boolean;
+  impulses: boolean;
+  friction: boolean;
+  moves: boolean;
+  bounds: boolean;
+  shadows: boolean;
+  grid: boolean;
+}
+
+export const defaultOptions: ViewOptions = {
+  colour: 'material', points: false, normals: false, impulses: false, friction: false, moves: false, bounds: false,
+  shadows: true, grid: true,
+};
+
+/** The arrays that must come with the frames so that the options can be drawn. */
+export function layersFor(options: ViewOptions): LayerName[] {
+  const layers = new Set<LayerName>();
+  if (options.colour !== 'material' && options.colour !== 'asleep') layers.add(options.colour);
+  if (options.points || options.normals || options.impulses || options.friction) layers.add('contacts');
+  if (options.moves) layers.add('moves');
+  if (options.bounds) layers.add('bounds');
+  return [...layers].sort();
+}

@@ -1,0 +1,96 @@
+/** Which layers are drawn, and what their colours mean. */
+import type { ColourMode, ViewOptions } from '../model';
+import { asleepHex, awakeHex, categoricalHex, fixedHex, sequentialCss } from '../view/palette';
+import { overlayHex } from '../view/overlays';
+import { h, quantity } from './dom';
+
+interface Choice<T> { key: T; label: string; hint: string; shortcut?: string; swatch?: string }
+
+export const colourModes: Choice<ColourMode>[] = [
+  { key: 'material', label: 'Material', hint: 'Oak, iron, granite', shortcut: '1' },
+  { key: 'batch', label: 'Batch', hint: 'Bodies that contacts connect share a colour', shortcut: '2' },
+  { key: 'asleep', label: 'Asleep or awake', hint: 'Which bodies the sleeping system has put to rest', shortcut: '3' },
+  { key: 'speed', label: 'Speed', hint: 'Of the centre of mass', shortcut: '4' },
+  { key: 'overlap', label: 'Overlap', hint: 'Largest overlap of the contacts of a body', shortcut: '5' },
+  { key: 'level', label: 'Hierarchy level', hint: 'Of the grids of the broad phase', shortcut: '6' },
+  { key: 'stage', label: 'Shock stage', hint: 'The order in which the shock propagation froze the bodies in the last step', shortcut: '7' },
+];
+
+type Switch = Exclude<keyof ViewOptions, 'colour'>;
+
+export const switches: Choice<Switch>[] = [
+  { key: 'points', label: 'Contact points', hint: 'Where bodies touch', shortcut: 'C', swatch: overlayHex.points },
+  { key: 'normals', label: 'Normals', hint: 'Of the contacts, from B to A', shortcut: 'N', swatch: overlayHex.normals },
+  { key: 'impulses', label: 'Impulses', hint: 'Along the normal, in the last step', shortcut: 'I', swatch: overlayHex.impulses },
+  { key: 'friction', label: 'Friction', hint: 'Impulses along the surface, in the last step', shortcut: 'K', swatch: overlayHex.friction },
+  { key: 'moves', label: 'Correction moves', hint: 'Of the penetration correction in the last step, drawn 100 times as long', shortcut: 'M', swatch: overlayHex.moves },
+  { key: 'bounds', label: 'Bounding boxes', hint: 'As the broad phase sees them', shortcut: 'B', swatch: overlayHex.bounds },
+  { key: 'shadows', label: 'Shadows', hint: 'Of the sun', shortcut: 'S' },
+  { key: 'grid', label: 'Grid', hint: 'Strong lines every metre, fine ones every ten centimetres', shortcut: 'G' },
+];
+
+/** What a recording holds. */
+const recorded = new Set<string>(['material', 'asleep', 'speed', 'shadows', 'grid']);
+
+export class LayersPanel {
+  readonly element = h('div', { class: 'layers' });
+
+  constructor(private readonly options: ViewOptions, private readonly changed: () => void) {}
+
+  build(replay: boolean): void {
+    const colours = h('fieldset', { class: 'choices' }, h('legend', {}, 'Colour by'));
+    for (const mode of colourModes) {
+      const input = h('input', { type: 'radio', name: 'colour', value: mode.key, id: `colour-${mode.key}`, disabled: replay && !recorded.has(mode.key) });
+      input.checked = this.options.colour === mode.key;
+      input.addEventListener('change', () => {
+        this.options.colour = mode.key;
+        this.changed();
+      });
+      colours.append(this.row(input, mode, replay));
+    }
+    const layers = h('fieldset', { class: 'choices' }, h('legend', {}, 'Show'));
+    for (const layer of switches) {
+      const input = h('input', { type: 'checkbox', id: `layer-${layer.key}`, disabled: replay && !recorded.has(layer.key) });
+      input.checked = this.options[layer.key];
+      input.addEventListener('change', () => {
+        this.options[layer.key] = input.checked;
+        this.changed();
+      });
+      layers.append(this.row(input, layer, replay));
+    }
+    this.element.replaceChildren(colours, layers);
+    if (replay) this.element.append(h('p', { class: 'note' }, 'Greyed layers need a live world: recordings hold poses, velocities and sleep.'));
+  }
+
+  /** @return false if the view has no such layer */
+  toggle(key: Switch): void { this.click(`layer-${key}`); }
+  choose(key: ColourMode): void { this.click(`colour-${key}`); }
+
+  private click(id: string): void {
+    (this.element.querySelector(`#${id}`) as HTMLInputElement | null)?.click();
+  }
+
+  private row(input: HTMLInputElement, choice: Choice<string>, replay: boolean): HTMLElement {
+    const hint = replay && !recorded.has(choice.key) ? 'Recordings do not hold this' : choice.hint;
+    return h('label', { class: input.disabled ? 'row off' : 'row', title: hint },
+      input, h('span', {}, choice.swatch ? h('i', { class: 'swatch', style: `background:${choice.swatch}` }) : null, choice.label),
+      choice.shortcut ? h('kbd', {}, choice.shortcut) : null);
+  }
+}
+
+/** What the colours of the bodies mean now. @param maximum of a quantity, in SI units */
+export function legendFor(mode: ColourMode, maximum: number): HTMLElement | null {
+  const swatch = (colour: string, text: string): HTMLElement => h('span', { class: 'entry' }, h('i', { style: `background:${colour}` }), text);
+  switch (mode) {
+    case 'material': return null;
+    case 'asleep': return h('div', {}, swatch(awakeHex, 'awake'), swatch(asleepHex, 'asleep'), swatch(fixedHex, 'fixed'));
+    case 'batch': return h('div', {}, h('span', { class: 'entry' }, 'One colour per batch'), swatch('#9aa0a8', 'no contacts'), swatch(fixedHex, 'fixed'));
+    case 'speed':
+    case 'overlap':
+      return h('div', {}, h('span', { class: 'entry' }, '0'), h('span', { class: 'ramp', style: `background:${sequentialCss}` }),
+        h('span', { class: 'entry' }, mode === 'speed' ? quantity(maximum, 'm/s') : quantity(maximum, 'm')));
+    case 'level':
+    case 'stage':
+      return h('div', {}, ...[0, 1, 2, 3, 4].map((i) => swatch(categoricalHex(i), i === 4 ? '4 …' : String(i))), swatch('#9aa0a8', 'none'));
+  }
+}

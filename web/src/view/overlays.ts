@@ -1,0 +1,145 @@
+/** What the simulation did, drawn over the bodies: contacts, normals, impulses, friction, moves, bounds, springs. */
+import {
+  BufferAttribute, BufferGeometry, DynamicDrawUsage, Group, LineBasicMaterial, LineSegments, Points, PointsMaterial,
+} from 'three';
+import { present, type Frame, type ViewOptions } from '../model';
+
+/** Colours of the overlays, also for the legend. */
+export const overlayHex = {
+  points: '#d55e00', normals: '#0072b2', impulses: '#009e73', friction: '#cc79a7', moves: '#e69f00', bounds: '#7d8590',
+  springs: '#e69f00',
+};
+
+/** Line segments that grow with their number. */
+class Segments {
+  readonly object: LineSegments;
+  private used = 0;
+  private points = new Float32Array(6 * 256);
+
+  constructor(colour: string, depthTest: boolean) {
+    this.object = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: colour, depthTest, transparent: true }));
+    this.object.frustumCulled = false;
+    this.object.renderOrder = 2;
+  }
+
+  begin(): void { this.used = 0; }
+
+  add(ax: number, ay: number, az: number, bx: number, by: number, bz: number): void {
+    if (this.used + 6 > this.points.length) {
+      const larger = new Float32Array(2 * this.points.length);
+      larger.set(this.points);
+      this.points = larger;
+    }
+    this.points.set([ax, ay, az, bx, by, bz], this.used);
+    this.used += 6;
+  }
+
+  end(): void { show(this.object.geometry, this.points, this.used / 3); }
+}
+
+function show(geometry: BufferGeometry, points: Float32Array, count: number): void {
+  let attribute = geometry.getAttribute('position') as BufferAttribute | undefined;
+  if (attribute?.array !== points) {
+    geometry.dispose();
+    attribute = new BufferAttribute(points, 3);
+    attribute.setUsage(DynamicDrawUsage);
+    geometry.setAttribute('position', attribute);
+  }
+  attribute.needsUpdate = true;
+  geometry.setDrawRange(0, count);
+}
+
+export class Overlays {
+  readonly group = new Group();
+  private readonly lines = {
+    normals: new Segments(overlayHex.normals, false),
+    impulses: new Segments(overlayHex.impulses, false),
+    friction: new Segments(overlayHex.friction, false),
+    moves: new Segments(overlayHex.moves, false),
+    bounds: new Segments(overlayHex.bounds, true),
+    springs: new Segments(overlayHex.springs, false),
+  };
+  private readonly points = new Points(
+    new BufferGeometry(),
+    new PointsMaterial({ color: overlayHex.points, size: 5, sizeAttenuation: false, depthTest: false, transparent: true }),
+  );
+  private impulseScale = 0;
+
+  constructor() {
+    this.points.frustumCulled = false;
+    this.points.renderOrder = 3;
+    this.group.add(this.points);
+    for (const segments of Object.values(this.lines)) this.group.add(segments.object);
+  }
+
+  /** @param size typical size of a body [m], for the length of the arrows */
+  update(frame: Frame, options: ViewOptions, size: number): void {
+    this.drawContacts(frame, options, size);
+    this.lines.moves.begin();
+    if (options.moves && frame.moves) this.drawMoves(frame, size);
+    this.lines.moves.end();
+    this.lines.bounds.begin();
+    if (options.bounds && frame.bounds) this.drawBounds(frame);
+    this.lines.bounds.end();
+    this.lines.springs.begin();
+    const s = frame.springs;
+    for (let i = 0; s && i + 5 < s.length; i += 6) this.lines.springs.add(s[i], s[i + 1], s[i + 2], s[i + 3], s[i + 4], s[i + 5]);
+    this.lines.springs.end();
+  }
+
+  private drawContacts(frame: Frame, options: ViewOptions, size: number): void {
+    const c = frame.contacts;
+    const { normals, impulses, friction } = this.lines;
+    for (const lines of [normals, impulses, friction]) lines.begin();
+    show(this.points.geometry, c?.point ?? new Float32Array(0), c && options.points ? c.count : 0);
+    if (c) {
+      if (options.impulses || options.friction) this.followImpulses(c.impulse);
+      const length = 0.45 * size;
+      const scale = this.impulseScale > 0 ? (1.5 * size) / this.impulseScale : 0;
+      for (let i = 0; i < c.count; i++) {
+        const at = 3 * i;
+        const x = c.point[at], y = c.point[at + 1], z = c.point[at + 2];
+        const nx = c.normal[at], ny = c.normal[at + 1], nz = c.normal[at + 2];
+        if (options.normals) normals.add(x, y, z, x + nx * length, y + ny * length, z + nz * length);
+        const jx = c.impulse[at], jy = c.impulse[at + 1], jz = c.impulse[at + 2];
+        if (jx === 0 && jy === 0 && jz === 0) continue;
+        const j = jx * nx + jy * ny + jz * nz;
+        if (options.impulses) impulses.add(x, y, z, x + j * nx * scale, y + j * ny * scale, z + j * nz * scale);
+        if (options.friction) friction.add(x, y, z, x + (jx - j * nx) * scale, y + (jy - j * ny) * scale, z + (jz - j * nz) * scale);
+      }
+    }
+    for (const lines of [normals, impulses, friction]) lines.end();
+  }
+
+  /** The longest arrow belongs to the largest impulse of the last moments. */
+  private followImpulses(impulse: Float32Array): void {
+    let largest = 0;
+    for (let i = 0; i < impulse.length; i += 3) largest = Math.max(largest, Math.hypot(impulse[i], impulse[i + 1], impulse[i + 2]));
+    this.impulseScale = Math.max(largest, 0.95 * this.impulseScale);
+  }
+
+  /** Moves are often far below a millimetre: they are drawn a hundred times as long, at most three bodies long. */
+  private drawMoves(frame: Frame, size: number): void {
+    const m = frame.moves!;
+    for (let slot = 0; slot < frame.slots; slot++) {
+      const at = 3 * slot;
+      const length = Math.hypot(m[at], m[at + 1], m[at + 2]);
+      if (length === 0 || !(frame.flags[slot] & present)) continue;
+      const scale = Math.min(100, (3 * size) / length);
+      const x = frame.position[at], y = frame.position[at + 1], z = frame.position[at + 2];
+      this.lines.moves.add(x, y, z, x + m[at] * scale, y + m[at + 1] * scale, z + m[at + 2] * scale);
+    }
+  }
+
+  private drawBounds(frame: Frame): void {
+    const b = frame.bounds!;
+    const lines = this.lines.bounds;
+    for (let slot = 0; slot < frame.slots; slot++) {
+      const [x0, y0, z0, x1, y1, z1] = b.subarray(6 * slot, 6 * slot + 6);
+      if (!(frame.flags[slot] & present) || !Number.isFinite(x0 + y0 + z0 + x1 + y1 + z1)) continue;
+      for (const [y, z] of [[y0, z0], [y1, z0], [y0, z1], [y1, z1]]) lines.add(x0, y, z, x1, y, z);
+      for (const [x, z] of [[x0, z0], [x1, z0], [x0, z1], [x1, z1]]) lines.add(x, y0, z, x, y1, z);
+      for (const [x, y] of [[x0, y0], [x1, y0], [x0, y1], [x1, y1]]) lines.add(x, y, z0, x, y, z1);
+    }
+  }
+}

@@ -1,0 +1,127 @@
+/** One world in three dimensions: bodies, ground, overlays and the light that follows their extent. */
+import { DirectionalLight, HemisphereLight, Scene, Vector3, type Texture } from 'three';
+import { fixed, present, type Frame, type Roster, type ViewOptions } from '../model';
+import { Bodies } from './bodies';
+import { Ground } from './ground';
+import { Overlays } from './overlays';
+
+export type Theme = 'light' | 'dark';
+
+const looks = {
+  light: { back: '#eceff2', ground: '#e3e6e9', line: 0.74, sky: '#ffffff', earth: '#b9b2a8', hemisphere: 1.25, sun: 2.5 },
+  dark: { back: '#14171b', ground: '#3c4249', line: 1.75, sky: '#c3d2e6', earth: '#2b2723', hemisphere: 0.75, sun: 2.3 },
+};
+
+export interface Extent { centre: Vector3; radius: number; size: number }
+
+export class WorldPanel {
+  readonly scene = new Scene();
+  readonly bodies = new Bodies();
+  readonly overlays = new Overlays();
+  readonly ground = new Ground();
+  roster: Roster | null = null;
+  frame: Frame | null = null;
+  extent: Extent = { centre: new Vector3(), radius: 1, size: 0.1 };
+  private readonly sun = new DirectionalLight('#fff4e4', 2.5);
+  private readonly sky = new HemisphereLight('#ffffff', '#b9b2a8', 1);
+
+  constructor() {
+    this.sun.castShadow = true;
+    this.sun.shadow.bias = -0.0006;
+    this.sun.shadow.normalBias = 0.006;
+    this.scene.add(this.sun, this.sun.target, this.sky, this.ground.group, this.bodies.group, this.overlays.group);
+    this.setTheme('light');
+  }
+
+  setTheme(theme: Theme): void {
+    const look = looks[theme];
+    this.sky.color.set(look.sky);
+    this.sky.groundColor.set(look.earth);
+    this.sky.intensity = look.hemisphere;
+    this.sun.intensity = look.sun;
+    const c = look.back.match(/[0-9a-f]{2}/g)!.map((x) => parseInt(x, 16) / 255);
+    this.ground.setTheme(look.ground, new Vector3(c[0], c[1], c[2]), look.line);
+  }
+
+  static background(theme: Theme): string { return looks[theme].back; }
+
+  setEnvironment(texture: Texture | null, intensity: number): void {
+    this.scene.environment = texture;
+    this.scene.environmentIntensity = intensity;
+  }
+
+  setShadows(visible: boolean, mapSize: number): void {
+    this.sun.castShadow = visible;
+    if (this.sun.shadow.mapSize.x === mapSize) return;
+    this.sun.shadow.mapSize.set(mapSize, mapSize);
+    this.sun.shadow.map?.dispose();
+    this.sun.shadow.map = null;
+  }
+
+  setRoster(roster: Roster): void {
+    this.roster = roster;
+    this.frame = null;
+    this.bodies.setRoster(roster);
+  }
+
+  /** @return true if it was drawn: frames of another epoch are not */
+  setFrame(frame: Frame, options: ViewOptions): boolean {
+    if (!this.roster || frame.epoch !== this.roster.epoch) return false;
+    const first = this.frame === null;
+    this.frame = frame;
+    if (first) this.extent = extentOf(this.roster, frame);
+    this.bodies.update(frame, options.colour);
+    this.overlays.update(frame, options, this.extent.size);
+    const { centre, radius } = this.extent;
+    this.ground.setExtent(centre, radius, radius > 40 ? 10 : 1);
+    this.ground.setGrid(options.grid);
+    this.ground.update(this.roster, frame, centre, radius);
+    this.aimSun(frame);
+    return true;
+  }
+
+  /** The shadow map covers what moves within three times the first extent, in coarse steps against flicker. */
+  private aimSun(frame: Frame): void {
+    const { centre, radius } = this.extent;
+    let reach = 0.3 * radius;
+    const p = frame.position;
+    for (let slot = 0; slot < frame.slots; slot++) {
+      if ((frame.flags[slot] & (present | fixed)) !== present) continue;
+      const distance = Math.hypot(p[3 * slot] - centre.x, p[3 * slot + 1] - centre.y, p[3 * slot + 2] - centre.z);
+      if (distance < 3 * radius) reach = Math.max(reach, distance + this.extent.size);
+    }
+    reach = 1.25 ** Math.ceil(Math.log(Math.max(reach, 0.05)) / Math.log(1.25));
+    this.sun.target.position.copy(centre);
+    this.sun.position.set(-0.42, -0.58, 1.05).normalize().multiplyScalar(3 * reach).add(centre);
+    const camera = this.sun.shadow.camera;
+    if (camera.right === reach) return;
+    camera.left = camera.bottom = -reach;
+    camera.right = camera.top = reach;
+    camera.near = 0.5 * reach;
+    camera.far = 6 * reach;
+    this.sun.shadow.normalBias = 0.0025 * reach;
+    camera.updateProjectionMatrix();
+  }
+}
+
+/** Where the bodies are that can move (or, without any, the fixed ones), and how large one of them is. */
+export function extentOf(roster: Roster, frame: Frame): Extent {
+  for (const wanted of [present, present | fixed]) {
+    const lower = new Vector3(Infinity, Infinity, Infinity), upper = new Vector3(-Infinity, -Infinity, -Infinity);
+    let sizes = 0, count = 0;
+    for (const body of roster.bodies.values()) {
+      const { shape, slot } = body;
+      if (shape.type === 'plane' || slot >= frame.slots || (frame.flags[slot] & (present | fixed)) !== wanted) continue;
+      const p = new Vector3().fromArray(frame.position, 3 * slot);
+      const size = shape.type === 'box' ? Math.max(...shape.size) : 2 * shape.radius + (shape.type === 'capsule' ? shape.length : 0);
+      lower.min(p.clone().subScalar(size / 2));
+      upper.max(p.clone().addScalar(size / 2));
+      sizes += size;
+      count++;
+    }
+    if (count === 0) continue;
+    const centre = lower.clone().add(upper).multiplyScalar(0.5);
+    return { centre, radius: Math.max(0.5 * lower.distanceTo(upper), 0.1), size: sizes / count };
+  }
+  return { centre: new Vector3(0, 0, 0.5), radius: 2, size: 0.2 };
+}

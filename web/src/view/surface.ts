@@ -1,0 +1,142 @@
+/** The surface of bodies: oak, iron and granite made of noise, or a flat colour of a layer. */
+import {
+  Data3DTexture, LinearFilter, MeshLambertMaterial, MeshStandardMaterial, RedFormat, RepeatWrapping,
+  type WebGLProgramParametersWithUniforms,
+} from 'three';
+
+/** Which pattern a material gets; anything unknown is painted. */
+export function patternOf(material: string): number {
+  const name = material.toLowerCase();
+  if (/oak|wood|pine|beech|plank/.test(name)) return 0;
+  if (/iron|steel|metal|alumin|copper/.test(name)) return 1;
+  if (/granite|stone|rock|concrete|marble/.test(name)) return 2;
+  return 3;
+}
+
+export interface SurfaceUniforms {
+  /** 0 = the material's pattern, 1 = the flat colour of the instance */
+  uFlat: { value: number };
+  uNoise: { value: Data3DTexture };
+}
+
+const noiseSize = 32;
+
+/** A tile of random values; the hardware's interpolation turns it into smooth noise. */
+function makeNoise(): Data3DTexture {
+  const data = new Uint8Array(noiseSize ** 3);
+  let state = 12345;
+  for (let i = 0; i < data.length; i++) {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    data[i] = state >>> 24;
+  }
+  const texture = new Data3DTexture(data, noiseSize, noiseSize, noiseSize);
+  texture.format = RedFormat;
+  texture.wrapS = texture.wrapT = texture.wrapR = RepeatWrapping;
+  texture.minFilter = texture.magFilter = LinearFilter;
+  texture.unpackAlignment = 1;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+const vertexHead = /* glsl */ `
+attribute vec3 aTint;
+attribute vec3 aKind; // pattern, seed, emphasis
+attribute vec3 aHalf; // half extents of a box [m]; a negative x marks a round body
+varying vec3 vTint;
+varying vec3 vKind;
+varying vec3 vHalf;
+varying vec3 vInner; // [m, B]
+`;
+const vertexBody = /* glsl */ `
+#include <begin_vertex>
+vTint = aTint;
+vKind = aKind;
+vHalf = aHalf;
+vInner = position * abs(aHalf);
+`;
+const fragmentHead = /* glsl */ `
+uniform float uFlat;
+uniform highp sampler3D uNoise;
+varying vec3 vTint;
+varying vec3 vKind;
+varying vec3 vHalf;
+varying vec3 vInner;
+float surfaceRoughness;
+float surfaceMetalness;
+float noiseAt(vec3 p) { return texture(uNoise, p * ${(1 / noiseSize).toFixed(6)}).r; }
+vec3 oak(vec3 p, float seed) {
+  vec3 q = p + vec3(0.06 + 0.05 * fract(seed * 7.13), 0.05 * fract(seed * 3.71) - 0.1, 0.4 * seed);
+  float wobble = noiseAt(vec3(q.xy * 14.0, q.z * 5.0) + seed * 17.0) - 0.5;
+  float ring = length(q.xy) * 95.0 + wobble * 1.6;
+  float late = smoothstep(0.35, 0.95, fract(ring)) * (1.0 - smoothstep(0.95, 1.0, fract(ring)));
+  float fibre = noiseAt(vec3(q.xy * 700.0, q.z * 22.0));
+  vec3 light = mix(vec3(0.56, 0.335, 0.15), vec3(0.47, 0.255, 0.10), fract(seed * 5.3));
+  vec3 wood = mix(light, light * vec3(0.58, 0.52, 0.46), 0.75 * late);
+  surfaceRoughness = 0.62 + 0.15 * fibre;
+  surfaceMetalness = 0.0;
+  return wood * (0.86 + 0.26 * fibre);
+}
+vec3 iron(vec3 p, float seed) {
+  float broad = noiseAt(p * 40.0 + seed * 9.0);
+  float fine = noiseAt(p * 300.0);
+  surfaceRoughness = 0.34 + 0.22 * broad + 0.06 * fine;
+  surfaceMetalness = 0.9;
+  return vec3(0.30, 0.315, 0.335) * (0.82 + 0.3 * broad);
+}
+vec3 granite(vec3 p, float seed) {
+  vec3 q = p * 260.0 + seed * 13.0;
+  float a = noiseAt(q), b = noiseAt(q * 0.53 + 7.7), c = noiseAt(p * 9.0);
+  vec3 stone = mix(vec3(0.37, 0.36, 0.36), vec3(0.50, 0.47, 0.45), c);
+  stone = mix(stone, vec3(0.09, 0.09, 0.10), 0.75 * smoothstep(0.62, 0.75, a));
+  stone = mix(stone, vec3(0.72, 0.68, 0.66), 0.6 * smoothstep(0.66, 0.8, b));
+  surfaceRoughness = 0.7;
+  surfaceMetalness = 0.0;
+  return stone;
+}
+vec3 surfaceColour() {
+  surfaceRoughness = 0.6;
+  surfaceMetalness = 0.0;
+  vec3 colour = vTint;
+  if (uFlat < 0.5) {
+    if (vKind.x < 0.5) colour = oak(vInner, vKind.y);
+    else if (vKind.x < 1.5) colour = iron(vInner, vKind.y);
+    else if (vKind.x < 2.5) colour = granite(vInner, vKind.y);
+  } else if (vHalf.x < 0.0) {
+    // Two halves of a round body differ a little, so that one sees it roll.
+    colour *= 0.88 + 0.24 * smoothstep(-0.02, 0.02, vInner.x / -vHalf.x);
+  }
+  if (vHalf.x > 0.0) {
+    vec3 gap = vHalf - abs(vInner);
+    float edge = min(max(gap.x, gap.y), min(max(gap.y, gap.z), max(gap.x, gap.z)));
+    float width = 0.05 * min(vHalf.x, min(vHalf.y, vHalf.z)) + 0.7 * fwidth(edge);
+    colour *= mix(0.62, 1.0, smoothstep(0.0, width, edge));
+  }
+  return colour * (1.0 + 0.35 * vKind.z) + vKind.z * vec3(0.02, 0.10, 0.2);
+}
+`;
+const fragmentColour = /* glsl */ `
+#include <color_fragment>
+diffuseColor.rgb = surfaceColour();
+`;
+
+function patch(shader: WebGLProgramParametersWithUniforms, uniforms: SurfaceUniforms): void {
+  Object.assign(shader.uniforms, uniforms);
+  shader.vertexShader = vertexHead + shader.vertexShader.replace('#include <begin_vertex>', vertexBody);
+  shader.fragmentShader = fragmentHead + shader.fragmentShader
+    .replace('#include <color_fragment>', fragmentColour)
+    .replace('#include <roughnessmap_fragment>', 'float roughnessFactor = surfaceRoughness;')
+    .replace('#include <metalnessmap_fragment>', 'float metalnessFactor = surfaceMetalness;');
+}
+
+/** The two materials of all bodies: a good one, and one that software rendering can afford. */
+export class Surfaces {
+  readonly uniforms: SurfaceUniforms = { uFlat: { value: 0 }, uNoise: { value: makeNoise() } };
+  readonly fine = new MeshStandardMaterial();
+  readonly plain = new MeshLambertMaterial();
+
+  constructor() {
+    for (const material of [this.fine, this.plain]) {
+      material.onBeforeCompile = (shader) => patch(shader, this.uniforms);
+    }
+  }
+}
