@@ -139,6 +139,19 @@ std::span<const HashGrids::Cell> HashGrids::cellsOf(const Block& block) const {
     return std::span(cells_).subspan(block.first_cell, static_cast<std::size_t>(std::popcount(block.occupied)));
 }
 
+inline void HashGrids::testRow(const Entry& entry, const Range& others, PairBuffer& found) const {
+    // Written always and kept only on a hit: cheaper than a branch that is taken at random.
+    BodyPair* const out = found.reserve(others.end - others.begin);
+    std::size_t count = 0;
+    for (std::uint32_t j = others.begin; j < others.end; ++j) {
+        const Entry& other = entries_[j];
+        out[count].a = std::min(entry.body, other.body);
+        out[count].b = std::max(entry.body, other.body);
+        count += overlap(entry.bounds, other.bounds) ? 1 : 0;
+    }
+    found.commit(count);
+}
+
 void HashGrids::searchBlock(const Block& block, PairBuffer& found) const {
     std::uint32_t needed = 0;
     forEachPosition(block.occupied, [&](unsigned position) { needed |= needed_blocks[position]; });
@@ -151,31 +164,36 @@ void HashGrids::searchBlock(const Block& block, PairBuffer& found) const {
 
     const Cell* cell = &cells_[block.first_cell];
     forEachPosition(block.occupied, [&](unsigned position) {
-        searchInside(*cell, found);
+        Neighbours neighbours;
         for (const RelativeCell& neighbour : half_neighbourhood[position]) {
             const Block* const other = around[neighbour.block];
             if (other != nullptr && other->has(neighbour.position)) {
-                searchBetween(*cell, cells_[other->cell(neighbour.position)], found);
+                neighbours.add(cells_[other->cell(neighbour.position)]);
             }
         }
+        searchCell(*cell, neighbours, found);
         ++cell;
     });
     if (static_cast<std::size_t>(block.key.level) + 1 < levels_.levels()) searchCoarser(block, found);
 }
 
-void HashGrids::searchInside(const Cell& cell, PairBuffer& found) const {
-    const auto entries = std::span(entries_);
-    for (std::uint32_t i = cell.begin; i < cell.fixed_begin; ++i) {
-        testRow(entries[i], entries.subspan(i + 1, cell.end - (i + 1)), found);
+void HashGrids::Neighbours::add(const Cell& cell) {
+    if (all_count > 0 && all[all_count - 1].end == cell.begin) {
+        all[all_count - 1].end = cell.end;
+    } else {
+        all[all_count++] = {cell.begin, cell.end};
     }
+    if (cell.fixed_begin > cell.begin) dynamic[dynamic_count++] = {cell.begin, cell.fixed_begin};
 }
 
-void HashGrids::searchBetween(const Cell& first, const Cell& second, PairBuffer& found) const {
-    const auto entries = std::span(entries_);
-    const auto all = entries.subspan(second.begin, second.end - second.begin);
-    const auto dynamic = entries.subspan(second.begin, second.fixed_begin - second.begin);
-    for (std::uint32_t i = first.begin; i < first.fixed_begin; ++i) testRow(entries[i], all, found);
-    for (std::uint32_t i = first.fixed_begin; i < first.end; ++i) testRow(entries[i], dynamic, found);
+void HashGrids::searchCell(const Cell& cell, const Neighbours& neighbours, PairBuffer& found) const {
+    for (std::uint32_t i = cell.begin; i < cell.fixed_begin; ++i) {
+        testRow(entries_[i], {i + 1, cell.end}, found);
+        for (std::size_t n = 0; n < neighbours.all_count; ++n) testRow(entries_[i], neighbours.all[n], found);
+    }
+    for (std::uint32_t i = cell.fixed_begin; i < cell.end; ++i) {
+        for (std::size_t n = 0; n < neighbours.dynamic_count; ++n) testRow(entries_[i], neighbours.dynamic[n], found);
+    }
 }
 
 void HashGrids::searchCoarser(const Block& block, PairBuffer& found) const {
@@ -206,20 +224,17 @@ void HashGrids::searchCoarser(const Block& block, PairBuffer& found) const {
 
 void HashGrids::searchCoarserBlock(const Block& block, const Bounds& around, const Block& coarse,
                                    std::uint64_t positions, PairBuffer& found) const {
-    const auto entries = std::span(entries_);
     const auto cells = cellsOf(block);
-    const auto all = entries.subspan(cells.front().begin, cells.back().end - cells.front().begin);
+    const Range all = {cells.front().begin, cells.back().end};
     forEachPosition(coarse.occupied & positions, [&](unsigned position) {
         const Cell& other = cells_[coarse.cell(position)];
         for (std::uint32_t i = other.begin; i < other.end; ++i) {
-            if (!overlap(entries[i].bounds, around)) continue;
+            if (!overlap(entries_[i].bounds, around)) continue;
             if (i < other.fixed_begin) {
-                testRow(entries[i], all, found);
+                testRow(entries_[i], all, found);
                 continue;
             }
-            for (const Cell& cell : cells) {
-                testRow(entries[i], entries.subspan(cell.begin, cell.fixed_begin - cell.begin), found);
-            }
+            for (const Cell& cell : cells) testRow(entries_[i], {cell.begin, cell.fixed_begin}, found);
         }
     });
 }
@@ -240,17 +255,6 @@ void HashGrids::searchApart(const BroadPhaseInput& input, std::size_t begin, std
         }
         found.commit(count);
     }
-}
-
-void HashGrids::testRow(const Entry& entry, std::span<const Entry> others, PairBuffer& found) {
-    // Written always and kept only on a hit: cheaper than a branch that is taken at random.
-    BodyPair* const out = found.reserve(others.size());
-    std::size_t count = 0;
-    for (const Entry& other : others) {
-        out[count] = {std::min(entry.body, other.body), std::max(entry.body, other.body)};
-        count += overlap(entry.bounds, other.bounds) ? 1 : 0;
-    }
-    found.commit(count);
 }
 
 }  // namespace cairn

@@ -1,6 +1,7 @@
 /// @file Hierarchical hash grids: cost linear in the number of bodies, whatever their sizes and places.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -38,6 +39,20 @@ class HashGrids final : public BroadPhase {
         std::uint32_t fixed_begin;
         std::uint32_t end;
     };
+    /// Entries [begin, end).
+    struct Range {
+        std::uint32_t begin;
+        std::uint32_t end;
+    };
+    /// The entries that a cell is compared with, neighbours that lie side by side in memory in one range.
+    struct Neighbours {
+        std::array<Range, 13> all;
+        std::array<Range, 13> dynamic;
+        std::size_t all_count = 0;
+        std::size_t dynamic_count = 0;
+
+        void add(const Cell& cell);
+    };
     /// Where a body lies.
     struct Address {
         std::uint32_t block;
@@ -48,14 +63,13 @@ class HashGrids final : public BroadPhase {
     void numberCells();
     void placeEntries(const BroadPhaseInput& input);
     void searchBlock(const Block& block, PairBuffer& found) const;
-    void searchInside(const Cell& cell, PairBuffer& found) const;
-    void searchBetween(const Cell& first, const Cell& second, PairBuffer& found) const;
+    void searchCell(const Cell& cell, const Neighbours& neighbours, PairBuffer& found) const;
     void searchCoarser(const Block& block, PairBuffer& found) const;
     void searchCoarserBlock(const Block& block, const Bounds& around, const Block& coarse, std::uint64_t positions,
                             PairBuffer& found) const;
     void searchApart(const BroadPhaseInput& input, std::size_t begin, std::size_t end, PairBuffer& found) const;
     std::span<const Cell> cellsOf(const Block& block) const;
-    static void testRow(const Entry& entry, std::span<const Entry> others, PairBuffer& found);
+    void testRow(const Entry& entry, const Range& others, PairBuffer& found) const;
 
     GridLevels levels_;
     BlockTable table_;
