@@ -2,7 +2,6 @@
 
 #include <array>
 #include <charconv>
-#include <functional>
 
 #include "scene/built_in_tools.h"
 
@@ -29,7 +28,7 @@ struct Entry {
 
 using Numbers = std::array<int, 2>;
 
-constexpr std::array<Entry, 13> entries = {{
+constexpr auto entries = std::to_array<Entry>({
     {{"stacks5", "five walls of 55 boxes, hit by an iron ball (thesis §5.1)", "stacks5"},
      0,
      {},
@@ -83,7 +82,7 @@ constexpr std::array<Entry, 13> entries = {{
      1,
      {{{"N, the number of bodies", 1, 100000, 0}}},
      [](std::string name, Numbers n) { return heapScene(std::move(name), n[0]); }},
-}};
+});
 
 /// The parts of a name between its colons.
 std::vector<std::string_view> splitName(std::string_view name) {
