@@ -7,24 +7,22 @@
 
 namespace cairn {
 
-/// Kinetic friction needs K0 + β(K1·j1 + K2·j2) > 0 (3.5.8). For strongly coupled contacts with a large µk it can come
-/// close to zero or below (Painlevé's paradox) and the impulse would grow without bound or pull. Below this part of K0
-/// the contact is resolved without friction instead. With µ ≤ 1 boxes, balls and capsules stay far above it.
-inline constexpr double smallest_kinetic_denominator = 0.01;
-
 /// The impulse without friction: stops (or reverses) the normal velocity. @source thesis Algorithm 7, normal part
 inline Vec3 frictionlessImpulse(const ContactFrame& frame, double target_normal) {
     return {target_normal / frame.k_row[0], 0, 0};
 }
 
 /// The impulse of a sliding contact. @param stick the impulse that would stop the sliding [N·s, contact coordinates]
-/// @param target_normal wanted change of the normal velocity [m/s] @source thesis (3.5.5)–(3.5.8)
+/// @param target_normal wanted change of the normal velocity [m/s], > 0 @source thesis (3.5.5)–(3.5.8)
+///
+/// The denominator K0 + β(K1·j1 + K2·j2) is positive for µk ≤ µs: with c·|jt| := K1·j1 + K2·j2, stick fulfils
+/// K0·j0 + c·|jt| = target0 > 0. If j0 ≤ 0, then c > 0. If j0 > 0, then c < 0 and |jt| > µs·j0 give K0 > µs·|c|. Should
+/// rounding or a µk > µs break this (as in Painlevé's paradox), the impulse would pull; it is given without friction.
 inline Vec3 slidingImpulse(const ContactFrame& frame, const Vec3& stick, double target_normal) {
     const double beta = frame.kinetic_friction / std::sqrt(stick[1] * stick[1] + stick[2] * stick[2]);
     const double denominator = frame.k_row[0] + beta * (frame.k_row[1] * stick[1] + frame.k_row[2] * stick[2]);
-    // Written so that a NaN takes the way out, too.
-    if (!(denominator > smallest_kinetic_denominator * frame.k_row[0]))
-        return frictionlessImpulse(frame, target_normal);
+    const bool pushes = denominator > 0;  // false for a NaN, too
+    if (!pushes) return frictionlessImpulse(frame, target_normal);
     const double normal = target_normal / denominator;
     const double lambda = beta * normal;
     return {normal, lambda * stick[1], lambda * stick[2]};
@@ -37,8 +35,8 @@ inline Vec3 contactImpulse(const ContactFrame& frame, const Vec3& velocity, doub
     const double e = velocity[0] > -restitution_threshold ? 0 : frame.restitution;
     const Vec3 target(-(1 + e) * velocity[0], -velocity[1], -velocity[2]);
     const Vec3 j = frame.k_inv * target;
-    // The thesis's cone test is symmetric in the sign of j0. A pulling j0 inside the cone takes a coupling as strong as
-    // in Painlevé's paradox; it counts as sliding here, whose impulse always pushes.
+    // The thesis's cone test (3.5.4) ignores the sign of j0. A j0 that pulls, possible when a fast sliding contact is
+    // strongly coupled, counts as sliding here, whose impulse always pushes.
     const double cone = frame.static_friction * j[0];
     if (j[0] > 0 && j[1] * j[1] + j[2] * j[2] <= cone * cone) return j;
     return slidingImpulse(frame, j, target[0]);

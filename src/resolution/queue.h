@@ -1,8 +1,9 @@
 /// @file The list of closing contacts of Algorithm 9, in three forms with one interface. @source thesis §3.8
 ///
-/// All read δ from the solver's array, are told by refresh(i) that δ[i] has changed, and give the next contact to
-/// resolve by next(). A contact is in the queue iff δ < threshold (so a NaN never is). The smallest δ wins; of equal
-/// ones the lower index, which makes ArrayQueue and TournamentQueue give the same order, bit for bit.
+/// All read δ from the solver's array, are told by refresh(i) that δ[i] has changed (once all changes are
+/// made; repeating it is harmless), and give the next contact to resolve by next(). A contact is in the queue iff δ <
+/// threshold (so a NaN never is). The smallest δ wins; of equal ones the lower index, which makes ArrayQueue and
+/// TournamentQueue give the same order, bit for bit.
 #pragma once
 
 #include <algorithm>

@@ -1,0 +1,205 @@
+/// Bodies and contacts made by hand, without shapes, detection or batch generation.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <numeric>
+#include <tuple>
+#include <vector>
+
+#include "resolution/resolution.h"
+
+namespace cairn::test {
+
+/// A small random generator (splitmix64): the same numbers everywhere.
+class Random {
+  public:
+    explicit Random(std::uint64_t seed) : state_(seed) {}
+    double uniform(double low, double high) {
+        state_ += 0x9e3779b97f4a7c15ULL;
+        std::uint64_t z = state_;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+        z ^= z >> 31;
+        return low + (high - low) * static_cast<double>(z >> 11) * 0x1.0p-53;
+    }
+    Vec3 vector(double size) {
+        const double x = uniform(-size, size), y = uniform(-size, size), z = uniform(-size, size);
+        return {x, y, z};
+    }
+
+  private:
+    std::uint64_t state_;
+};
+
+struct Friction {
+    double static_coefficient = 0;
+    double kinetic_coefficient = 0;
+};
+
+/// One batch: all bodies and contacts that were added.
+class Pile {
+  public:
+    std::vector<BodyKind> kind;
+    std::vector<Vec3> position, v, w, linear_step;
+    std::vector<double> mass_inv;
+    std::vector<Mat3> inertiaInv_W;
+    std::vector<std::uint8_t> asleep;
+    std::vector<WakeReason> woken;
+    std::vector<Contact> contacts;
+
+    BodyIndex add(const Vec3& at, double mass, const Mat3& inertia) {
+        kind.push_back(BodyKind::dynamic);
+        return addBody(at, 1 / mass, inertia.inverse());
+    }
+    BodyIndex addSphere(const Vec3& at, double mass = 1, double radius = 0.5) {
+        return add(at, mass, 0.4 * mass * radius * radius * Mat3::Identity());
+    }
+    BodyIndex addBox(const Vec3& at, double mass, const Vec3& size) {
+        const Vec3 s = size.cwiseAbs2();
+        const Vec3 moments = mass / 12 * Vec3(s.y() + s.z(), s.x() + s.z(), s.x() + s.y());
+        return add(at, mass, moments.asDiagonal());
+    }
+    BodyIndex addFixed(const Vec3& at = Vec3::Zero()) {
+        kind.push_back(BodyKind::fixed);
+        return addBody(at, 0, Mat3::Zero());
+    }
+    /// @param normal from b to a
+    Contact& touch(BodyIndex a, BodyIndex b, const Vec3& point, const Vec3& normal, double restitution = 0,
+                   Friction friction = {}) {
+        Contact c;
+        c.a = a;
+        c.b = b;
+        c.point = point;
+        c.normal = normal;
+        c.restitution = restitution;
+        c.static_friction = friction.static_coefficient;
+        c.kinetic_friction = friction.kinetic_coefficient;
+        contacts.push_back(c);
+        return contacts.back();
+    }
+    BodyState state() {
+        return {.kind = kind,
+                .position = position,
+                .v = v,
+                .w = w,
+                .mass_inv = mass_inv,
+                .inertiaInv_W = inertiaInv_W,
+                .linear_step = linear_step,
+                .asleep = asleep,
+                .woken = woken};
+    }
+    ResolutionCounts resolve(const ResolutionSettings& settings) {
+        return resolve(*makeResolution(settings.resolution), settings);
+    }
+    ResolutionCounts resolve(Resolution& resolution, const ResolutionSettings& settings) {
+        std::vector<BodyIndex> bodies;
+        for (BodyIndex i = 0; i < kind.size(); ++i) {
+            if (kind[i] == BodyKind::dynamic) bodies.push_back(i);
+        }
+        std::vector<std::uint32_t> indices(contacts.size());
+        std::iota(indices.begin(), indices.end(), 0U);
+        return resolution.resolve({bodies, indices}, contacts, state(), settings);
+    }
+
+    /// δ of a contact, straight from its definition. @source thesis (3.4.2)
+    double delta(const Contact& c) const {
+        const Vec3 a = v[c.a] + w[c.a].cross(c.point - position[c.a]);
+        const Vec3 b = v[c.b] + w[c.b].cross(c.point - position[c.b]);
+        return c.normal.dot(a - b);
+    }
+    double smallestDelta() const {
+        double smallest = 0;
+        for (const Contact& c : contacts) smallest = std::min(smallest, delta(c));
+        return smallest;
+    }
+    Vec3 momentum() const {
+        Vec3 sum = Vec3::Zero();
+        for (std::size_t i = 0; i < kind.size(); ++i) {
+            if (kind[i] == BodyKind::dynamic) sum += v[i] / mass_inv[i];
+        }
+        return sum;
+    }
+    Vec3 angularMomentum() const {
+        Vec3 sum = Vec3::Zero();
+        for (std::size_t i = 0; i < kind.size(); ++i) {
+            if (kind[i] != BodyKind::dynamic) continue;
+            sum += position[i].cross(Vec3(v[i] / mass_inv[i])) + inertiaInv_W[i].inverse() * w[i];
+        }
+        return sum;
+    }
+    double energy() const {
+        double sum = 0;
+        for (std::size_t i = 0; i < kind.size(); ++i) {
+            if (kind[i] != BodyKind::dynamic) continue;
+            sum += 0.5 * v[i].squaredNorm() / mass_inv[i] + 0.5 * w[i].dot(inertiaInv_W[i].inverse() * w[i]);
+        }
+        return sum;
+    }
+
+  private:
+    BodyIndex addBody(const Vec3& at, double inverse_mass, const Mat3& inverse_inertia) {
+        position.push_back(at);
+        v.emplace_back(Vec3::Zero());
+        w.emplace_back(Vec3::Zero());
+        linear_step.emplace_back(Vec3::Zero());
+        mass_inv.push_back(inverse_mass);
+        inertiaInv_W.push_back(inverse_inertia);
+        asleep.push_back(0);
+        woken.push_back(WakeReason::none);
+        return static_cast<BodyIndex>(kind.size() - 1);
+    }
+};
+
+/// Settings that resolve everything to the end by the global algorithm.
+inline ResolutionSettings exactSettings() {
+    ResolutionSettings settings;
+    settings.resolution_threshold = 1e-9;
+    settings.restitution_threshold = 1e-3;
+    settings.global_iterations = 0;
+    settings.shock_propagation = false;
+    return settings;
+}
+
+inline Mat3 randomInertia(Random& random, double mass) {
+    const Vec3 moments(random.uniform(0.3, 0.6), random.uniform(0.3, 0.6), random.uniform(0.3, 0.6));
+    const Mat3 r = Quat(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1))
+                       .normalized()
+                       .toRotationMatrix();
+    return mass * (r * moments.asDiagonal() * r.transpose());
+}
+
+/// Bodies of random mass and inertia at random places, falling towards each other, with contacts between neighbours.
+/// @param fixed bodies among them @param contact supplies restitution and friction
+inline Pile randomPile(std::uint64_t seed, std::size_t bodies, std::size_t contacts, std::size_t fixed = 0,
+                       double restitution = 0.25, Friction friction = {0.4, 0.3}) {
+    Random random(seed);
+    Pile pile;
+    for (std::size_t i = 0; i < bodies; ++i) {
+        const Vec3 at = random.vector(std::cbrt(static_cast<double>(bodies)));
+        if (i < fixed) {
+            pile.addFixed(at);
+            continue;
+        }
+        const double mass = random.uniform(0.5, 3);
+        const BodyIndex body = pile.add(at, mass, randomInertia(random, mass));
+        pile.v[body] = -0.3 * at + random.vector(0.2);
+        pile.w[body] = random.vector(0.5);
+    }
+    while (pile.contacts.size() < contacts) {
+        const auto pick = [&] { return static_cast<BodyIndex>(random.uniform(0, static_cast<double>(bodies))); };
+        const BodyIndex first = pick(), second = pick();
+        const BodyIndex a = std::min(first, second), b = std::max(first, second);
+        if (a == b || b < fixed) continue;
+        const Vec3 normal = (pile.position[a] - pile.position[b]).normalized();
+        const Vec3 point = 0.5 * (pile.position[a] + pile.position[b]) + random.vector(0.1);
+        pile.touch(a, b, point, normal, restitution, friction);
+    }
+    std::sort(pile.contacts.begin(), pile.contacts.end(),
+              [](const Contact& x, const Contact& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
+    return pile;
+}
+
+}  // namespace cairn::test
