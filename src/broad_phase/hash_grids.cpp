@@ -54,6 +54,12 @@ int HashGrids::level(BodyIndex body) const {
     return body < levels.size() ? std::max<int>(levels[body], -1) : -1;
 }
 
+std::uint64_t HashGrids::tests() const {
+    std::uint64_t sum = 0;
+    for (const PairBuffer& buffer : found_) sum += buffer.offered();
+    return sum;
+}
+
 void HashGrids::findPairs(const BroadPhaseInput& input, const Executor& executor, std::vector<BodyPair>& pairs) {
     const std::size_t slots = input.kind.size();
     levels_.choose(input);

@@ -26,6 +26,8 @@ class HashGrids final : public BroadPhase {
   public:
     void findPairs(const BroadPhaseInput& input, const Executor& executor, std::vector<BodyPair>& pairs) override;
     int level(BodyIndex body) const override;
+    /// Tests of two bounds in the last step: the part of the cost that grows worse than linearly in bad grids.
+    std::uint64_t tests() const;
 
   private:
     /// A body as the search sees it.
