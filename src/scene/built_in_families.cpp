@@ -156,8 +156,10 @@ Scene heapScene(std::string name, int bodies) {
     constexpr double smallest = 0.03;  // that of the smallest
     constexpr double cell = 2.1 * largest;
     constexpr double wall = 0.2;
-    // Half as many layers as columns: a pile that is wider than high, whatever its size.
-    const int side = std::max(2, static_cast<int>(std::ceil(std::cbrt(2.0 * bodies))));
+    // As many layers as columns: poured out they fill about a fifth of their height, so that the pile is wider than
+    // high and the last bodies do not fall too far, whatever its size.
+    int side = 2;
+    while (side * side * side < bodies) ++side;
     const int layers = (bodies + side * side - 1) / (side * side);
     const double inner = side * cell;
     const double height = tidy((layers + 1) * cell);
@@ -172,9 +174,7 @@ Scene heapScene(std::string name, int bodies) {
     }
     SplitMix64 random(2010);
     for (int i = 0; i < bodies; ++i) {
-        // Squaring favours small bodies, which fill the gaps between the large ones.
-        const double u = random.unit();
-        const double radius = smallest + (largest - smallest) * u * u;
+        const double radius = random.between(smallest, largest);
         const Shape shape = randomShape(random, radius);
         const Vec3 index(i % side + 0.5 - 0.5 * side, i / side % side + 0.5 - 0.5 * side, i / (side * side) + 0.5);
         const Vec3 shift = (0.49 * cell - radius) * random.symmetricVector();
