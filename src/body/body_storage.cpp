@@ -11,9 +11,10 @@ namespace cairn {
 
 BodyIndex BodyStorage::indexOf(BodyId id) const {
     if (contains(id)) return id.index;
-    throw StaleIdError(fmt::format("body id {}:{} is not in the world: it was removed or belongs to another world; "
-                                   "ask World::contains() first",
-                                   id.index, id.generation));
+    throw StaleIdError(
+        fmt::format("body id {}:{} is not in the world: it was removed or belongs to another world; "
+                    "ask World::contains() first",
+                    id.index, id.generation));
 }
 
 BodyIndex BodyStorage::allocate(BodyKind new_kind) {

@@ -17,9 +17,10 @@ void validatePair(const PairProperties& p) {
         throw InputError(fmt::format("kinetic_friction is {}; it must be finite and at least 0", p.kinetic_friction));
     }
     if (p.kinetic_friction > p.static_friction) {
-        throw InputError(fmt::format("kinetic_friction {} exceeds static_friction {}; kinetic friction is never larger "
-                                     "than static friction",
-                                     p.kinetic_friction, p.static_friction));
+        throw InputError(
+            fmt::format("kinetic_friction {} exceeds static_friction {}; kinetic friction is never larger "
+                        "than static friction",
+                        p.kinetic_friction, p.static_friction));
     }
 }
 
@@ -31,8 +32,8 @@ MaterialId MaterialTable::add(const Material& material) {
     }
     for (const Material& other : materials_) {
         if (other.name == material.name) {
-            throw InputError(fmt::format("a material named '{}' exists already; give the new one another name",
-                                         material.name));
+            throw InputError(
+                fmt::format("a material named '{}' exists already; give the new one another name", material.name));
         }
     }
     const std::size_t n = materials_.size();
