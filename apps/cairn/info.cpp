@@ -1,0 +1,85 @@
+/// @file cairn info: what stands in a recording or a scene.
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <map>
+
+#include "cairn/recording.h"
+#include "commands.h"
+#include "output.h"
+#include "scene_argument.h"
+
+namespace cairn::cli {
+
+namespace {
+
+/// The names of the alternatives of Shape, in their order.
+constexpr std::array<std::string_view, std::variant_size_v<Shape>> shape_names = {"sphere", "box", "capsule", "plane"};
+
+std::string line(std::string_view name, std::string_view value) {
+    return fmt::format("{:<14} {}\n", name, value);
+}
+
+std::string describeBodies(const Scene& scene) {
+    std::map<std::size_t, std::size_t> count;
+    std::size_t fixed = 0;
+    for (const SceneBody& body : scene.bodies) {
+        ++count[body.shape.index()];
+        if (body.fixed) ++fixed;
+    }
+    std::string text = fmt::format("{} ({} fixed)", scene.bodies.size(), fixed);
+    for (const auto& [shape, bodies] : count) text += fmt::format(", {} {}", shape_names[shape], bodies);
+    return text;
+}
+
+std::string describeScene(const Scene& scene) {
+    std::string text = line("scene", scene.name);
+    text += line("bodies", describeBodies(scene));
+    text += line("duration", fmt::format("{} s", scene.duration));
+    text += line("gravity", fmt::format("{} {} {} m/s²", scene.gravity.x(), scene.gravity.y(), scene.gravity.z()));
+    for (const Material& material : scene.materials) {
+        text += line("material", fmt::format("{}, {} kg/m³", material.name, material.density));
+    }
+    text += line("springs", fmt::format("{}", scene.springs.size()));
+    text += line("events", fmt::format("{}", scene.events.size()));
+    return text;
+}
+
+std::string describeRecording(const RecordingReader& recording) {
+    const RecordingInfo& info = recording.info();
+    std::string text = line("recording", fmt::format("{} frames", info.frames));
+    if (info.frames > 0) {
+        const Frame last = recording.frame(info.frames - 1);
+        text += line("time", fmt::format("0 to {:.6g} s", last.time));
+        text += line("energy at end",
+                     fmt::format("{:.6g} J kinetic, {:.6g} J potential", last.kinetic_energy, last.potential_energy));
+        text += line("asleep at end", fmt::format("{}", last.statistics.asleep));
+    }
+    text += line("made by", "cairn " + info.version);
+    text += line("machine", info.machine);
+    text += describeScene(info.scene);
+    for (const auto& [name, value] : info.settings) text += line("setting", fmt::format("{} = {}", name, value));
+    return text;
+}
+
+bool looksLikeRecording(const std::filesystem::path& file) {
+    if (file.extension() == ".h5" || file.extension() == ".hdf5") return true;
+    std::array<char, 4> begin{};
+    std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
+    return std::string_view(begin.data(), begin.size()) == "\x89HDF";
+}
+
+}  // namespace
+
+void addInfo(CLI::App& app, int&) {
+    CLI::App* command = app.add_subcommand("info", "Tell what stands in a recording or a scene");
+    auto file = std::make_shared<std::string>();
+    command->add_option("FILE", *file, "A recording, a scene file or the name of a built-in scene")->required();
+    command->callback([file] {
+        const bool recording = !isBuiltInScene(*file) && looksLikeRecording(*file);
+        printOut(recording ? describeRecording(RecordingReader(*file)) : describeScene(loadScene(*file)));
+    });
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,35 @@
+#include "interrupt.h"
+
+#include <csignal>
+#include <initializer_list>
+
+namespace cairn::cli {
+
+namespace {
+
+// A signal handler can reach nothing but a variable of the program.
+volatile std::sig_atomic_t noted = 0;
+
+void note(int) {
+    noted = 1;
+}
+
+}  // namespace
+
+void ignoreBrokenPipes() {
+    std::signal(SIGPIPE, SIG_IGN);
+}
+
+void noteInterrupts() {
+    struct sigaction action {};
+    action.sa_handler = note;
+    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+    sigemptyset(&action.sa_mask);
+    for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+}
+
+bool interrupted() {
+    return noted != 0;
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,21 @@
+/// @file What a run is measured by, step by step.
+#pragma once
+
+#include <vector>
+
+#include "cairn/statistics.h"
+
+namespace cairn::cli {
+
+/// Collected over the simulation steps of a run.
+struct Measurements {
+    std::vector<double> step_ms;  ///< wall time of each simulation step, without recording [ms]
+    Statistics total;             ///< sums over the run
+    Statistics last;              ///< of the last simulation step
+    double largest_overlap = 0;   ///< of the run [m]
+    double sum_mean_overlap = 0;  ///< of the mean overlaps of the frames [m]
+
+    void add(double ms, const Statistics& step);
+};
+
+}  // namespace cairn::cli

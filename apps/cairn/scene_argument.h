@@ -1,0 +1,13 @@
+/// @file A scene as it is named on the command line.
+#pragma once
+
+#include <string>
+
+#include "cairn/scene.h"
+
+namespace cairn::cli {
+
+/// @param argument the name of a built-in scene, or else a file @throws InputError, IoError
+Scene loadScene(const std::string& argument);
+
+}  // namespace cairn::cli

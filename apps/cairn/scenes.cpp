@@ -1,0 +1,23 @@
+/// @file cairn scenes: the built-in scenes.
+#include <fmt/format.h>
+
+#include "cairn/scene.h"
+#include "commands.h"
+#include "output.h"
+
+namespace cairn::cli {
+
+void addScenes(CLI::App& app, int&) {
+    CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes");
+    command->callback([] {
+        std::string text;
+        for (const BuiltInScene& scene : builtInScenes()) {
+            text += fmt::format("{:<12} {}", scene.name, scene.description);
+            if (scene.example != scene.name) text += fmt::format(", for example {}", scene.example);
+            text += '\n';
+        }
+        printOut(text);
+    });
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,101 @@
+/// @file cairn settings: all fields of the settings, as a table for the terminal or for docs/settings.md.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "cairn/settings.h"
+#include "commands.h"
+#include "output.h"
+
+namespace cairn::cli {
+
+namespace {
+
+using Row = std::array<std::string, 6>;
+
+constexpr std::array<std::string_view, 6> headings = {"field", "unit", "performance", "accuracy", "allowed", "meaning"};
+
+std::string valueText(const SettingValue& value) {
+    return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+}
+
+std::string allowedText(const SettingField& field, const SettingValue& value) {
+    if (std::holds_alternative<bool>(value)) return "true, false";
+    if (std::holds_alternative<std::string>(value)) return fmt::format("{}", fmt::join(field.choices, ", "));
+    // The smallest number above zero stands for a range without zero.
+    if (field.minimum == std::numeric_limits<double>::min()) return fmt::format("above 0, up to {}", field.maximum);
+    return fmt::format("{} to {}", field.minimum, field.maximum);
+}
+
+/// The rows of a stage, with the values of both presets.
+std::vector<Row> rowsOf(std::string_view stage) {
+    const Settings performance = Settings::preset(Preset::performance);
+    const Settings accuracy = Settings::preset(Preset::accuracy);
+    std::vector<Row> rows;
+    for (const SettingField& field : settingFields()) {
+        if (field.stage != stage) continue;
+        const SettingValue value = field.get(performance);
+        rows.push_back({std::string(field.name), std::string(field.unit), valueText(value),
+                        valueText(field.get(accuracy)), allowedText(field, value), std::string(field.meaning)});
+    }
+    return rows;
+}
+
+std::vector<std::string_view> stages() {
+    std::vector<std::string_view> names;
+    for (const SettingField& field : settingFields()) {
+        if (std::find(names.begin(), names.end(), field.stage) == names.end()) names.push_back(field.stage);
+    }
+    return names;
+}
+
+std::string markdown() {
+    std::string text =
+        "# Settings\n\n"
+        "Printed by `cairn settings --markdown`. Every field can be set with `--set field=value` and in the\n"
+        "`settings` of a scene file. The speeds of the presets are given for 10 m/s² and the preset's own steps per\n"
+        "second; both scale them.\n";
+    for (const std::string_view stage : stages()) {
+        text += fmt::format("\n## {}\n\n| {} |\n|{}\n", stage, fmt::join(headings, " | "), "---|---|---|---|---|---|");
+        for (const Row& row : rowsOf(stage)) {
+            text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row[0], row[1], row[2], row[3], row[4], row[5]);
+        }
+    }
+    return text;
+}
+
+std::string plain() {
+    std::array<std::size_t, 5> width{};
+    for (std::size_t i = 0; i < width.size(); ++i) width[i] = headings[i].size();
+    for (const std::string_view stage : stages()) {
+        for (const Row& row : rowsOf(stage)) {
+            for (std::size_t i = 0; i < width.size(); ++i) width[i] = std::max(width[i], row[i].size());
+        }
+    }
+    const auto line = [&](const auto& cells) {
+        std::string text;
+        for (std::size_t i = 0; i < width.size(); ++i) text += fmt::format("{:<{}}  ", cells[i], width[i]);
+        return text + std::string(cells.back()) + '\n';
+    };
+    std::string text = line(headings);
+    for (const std::string_view stage : stages()) {
+        text += fmt::format("\n{}\n", stage);
+        for (const Row& row : rowsOf(stage)) text += line(row);
+    }
+    return text;
+}
+
+}  // namespace
+
+void addSettings(CLI::App& app, int&) {
+    CLI::App* command = app.add_subcommand("settings", "Print every setting with its unit, presets, range and meaning");
+    auto as_markdown = std::make_shared<bool>(false);
+    command->add_flag("--markdown", *as_markdown, "Print the page docs/settings.md");
+    command->callback([as_markdown] { printOut(*as_markdown ? markdown() : plain()); });
+}
+
+}  // namespace cairn::cli
