@@ -20,7 +20,7 @@ struct Seesaw {
     static constexpr double length = 2;
     static constexpr double width = 0.4;
     static constexpr double thickness = 0.03;
-    static constexpr double fulcrum_height = 0.2;
+    static constexpr double fulcrum_height = 0.3;
 
     /// Of the plank; its origin is the plank's centre.
     Pose pose;
@@ -103,7 +103,7 @@ Shape randomShape(SplitMix64& random, double radius) {
 }  // namespace
 
 Scene catapultScene(std::string name) {
-    Scene scene = emptyScene(std::move(name), 3, {0, 0, -10});
+    Scene scene = emptyScene(std::move(name), 4, {0, 0, -10});
     scene.default_pair = {.restitution = 0.25, .static_friction = 0.5, .kinetic_friction = 0.5};
     scene.bodies.push_back(ground());
     const Seesaw seesaw;
