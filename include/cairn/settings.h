@@ -56,7 +56,7 @@ struct SleepSettings {
     bool sleeping = true;              ///< off = every body stays awake
     double sleep_threshold = 8.33e-3;  ///< a body whose averaged motion is below this sleeps [m/s], < |g|Δt (3.2.5)
     double motion_bias = 0.9;          ///< weight of the history in the averaged motion, 0 ≤ bias < 1 (3.2.4)
-    double motion_limit = 10;          ///< the averaged motion is capped at limit·sleep_threshold, > 1 (Algorithm 5)
+    double motion_limit = 3;           ///< the averaged motion is capped at limit·sleep_threshold, > 1 (Algorithm 5)
 };
 
 /// Velocity-dependent gravity damping. @source thesis §3.8

@@ -18,6 +18,25 @@ Vec3 inverseExponentialMap(const Vec3& u, const Vec3& w) {
     return w - 0.5 * once + u.cross(once) / 12;
 }
 
+/// Below this sine of the angle between angular momentum and velocity a body spins about a principal axis: its energy
+/// then depends on the angle in second order only, and correcting it would amplify rounding.
+constexpr double principal_spin_sine = 1e-4;
+
+/// Turns the body a little, within its errors, so that its energy is what it was; the angular momentum in W stays.
+/// @param energy twice the kinetic energy that it must have [J]
+void restoreEnergy(Quat& orientation, const Vec3& inertiaInv_B, const Vec3& angular_momentum, double energy) {
+    for (int i = 0; i < 2; ++i) {
+        const Vec3 momentum_B = orientation.conjugate() * angular_momentum;
+        const Vec3 w_B = inertiaInv_B.cwiseProduct(momentum_B);
+        // Turning the body by −φ turns momentum_B by φ and changes its energy by φ·gradient.
+        const Vec3 gradient = momentum_B.cross(w_B);
+        const double scale = momentum_B.squaredNorm() * w_B.squaredNorm();
+        if (!(gradient.squaredNorm() > principal_spin_sine * principal_spin_sine * scale)) return;
+        const double error = 0.5 * (w_B.dot(momentum_B) - energy);
+        orientation = (orientation * fromRotationVector(gradient * (error / gradient.squaredNorm()))).normalized();
+    }
+}
+
 bool isIsotropic(const Vec3& inertia_B) {
     return inertia_B.x() == inertia_B.y() && inertia_B.y() == inertia_B.z();
 }
@@ -39,8 +58,14 @@ void rotateFreely(Quat& orientation, Vec3& w, const Vec3& inertia_B, double time
     const Vec3 k2 = time * rate(k1 / 2);
     const Vec3 k3 = time * rate(k2 / 2);
     const Vec3 k4 = time * rate(k3);
+    const double energy = w.dot(momentum);
     orientation = (fromRotationVector((k1 + 2 * k2 + 2 * k3 + k4) / 6) * orientation).normalized();
+    restoreEnergy(orientation, inertiaInv_B, momentum, energy);
     w = angularVelocity(orientation, inertiaInv_B, momentum);
+    // The next step takes the momentum from w and the orientation; what rounding changed of it is put back here, so
+    // that it does not add up over many steps.
+    const Vec3 lost = momentum - orientation * inertia_B.cwiseProduct(orientation.conjugate() * w);
+    w += angularVelocity(orientation, inertiaInv_B, lost);
 }
 
 void advancePositions(BodyStorage& bodies, const IntegrationSettings& settings, double time_step,

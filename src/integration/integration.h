@@ -11,7 +11,8 @@ namespace cairn {
 
 /// Turns a body for a time with no torque acting: the angular momentum in W stays, the angular velocity follows the
 /// orientation (Euler's equations). Fourth-order Runge–Kutta on the rotation group, Munthe-Kaas (1998),
-/// doi:10.1007/BF02510919. @param inertia_B principal [kg·m², B] @param time [s]
+/// doi:10.1007/BF02510919, then projected onto the energy it began with. @param inertia_B principal [kg·m², B] @param
+/// time [s]
 void rotateFreely(Quat& orientation, Vec3& w, const Vec3& inertia_B, double time);
 
 /// Turns a body for a time at constant angular velocity [rad/s, W].

@@ -15,9 +15,6 @@ namespace cairn {
 
 namespace {
 
-/// Below this many items a parallel region costs more than it saves.
-constexpr std::size_t serial_limit = 64;
-
 #ifdef _OPENMP
 
 /// Runs a function once on each of several threads.
@@ -73,18 +70,18 @@ class Failures {
 
 Executor::Executor(int threads) : threads_(std::max(threads, 1)) {}
 
-void Executor::forBlocks(std::size_t count, const std::function<void(std::size_t, std::size_t, int)>& work) const {
+void Executor::forBlocks(std::size_t count, const std::function<void(std::size_t, std::size_t, int)>& work,
+                         std::size_t grain) const {
     if (count == 0) return;
-    if (threads_ == 1 || count < serial_limit) {
+    const std::size_t blocks = std::min(static_cast<std::size_t>(threads_), count / std::max<std::size_t>(grain, 1));
+    if (blocks <= 1) {
         work(0, count, 0);
         return;
     }
     Failures failures(threads_);
-    const auto blocks = static_cast<std::size_t>(threads_);
-    onThreads(threads_, [&](int t) {
-        const std::size_t begin = count * static_cast<std::size_t>(t) / blocks;
-        const std::size_t end = count * (static_cast<std::size_t>(t) + 1) / blocks;
-        failures.guard(t, [&] { work(begin, end, t); });
+    onThreads(static_cast<int>(blocks), [&](int t) {
+        const auto block = static_cast<std::size_t>(t);
+        failures.guard(t, [&] { work(count * block / blocks, count * (block + 1) / blocks, t); });
     });
     failures.rethrow();
 }

@@ -6,6 +6,9 @@ namespace cairn {
 
 namespace {
 
+/// Fewest pairs worth a thread of their own.
+constexpr std::size_t pair_grain = 32;
+
 Pose poseOf(const BodyStorage& bodies, BodyIndex i) {
     return {bodies.position[i], bodies.orientation[i]};
 }
@@ -51,13 +54,16 @@ void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, B
 
     data.thread_contacts.resize(static_cast<std::size_t>(executor.threads()));
     for (auto& contacts : data.thread_contacts) contacts.clear();
-    executor.forBlocks(data.pairs.size(), [&](std::size_t begin, std::size_t end, int thread) {
-        Manifold manifold;
-        auto& contacts = data.thread_contacts[static_cast<std::size_t>(thread)];
-        for (std::size_t i = begin; i < end; ++i) {
-            collidePair(bodies, materials, data.pairs[i], margin, manifold, contacts);
-        }
-    });
+    executor.forBlocks(
+        data.pairs.size(),
+        [&](std::size_t begin, std::size_t end, int thread) {
+            Manifold manifold;
+            auto& contacts = data.thread_contacts[static_cast<std::size_t>(thread)];
+            for (std::size_t i = begin; i < end; ++i) {
+                collidePair(bodies, materials, data.pairs[i], margin, manifold, contacts);
+            }
+        },
+        pair_grain);
     // Threads own ascending blocks of the sorted pairs, so joining them in order keeps the contacts sorted.
     data.contacts.clear();
     for (const auto& contacts : data.thread_contacts) {

@@ -10,6 +10,9 @@ namespace cairn {
 
 namespace {
 
+/// Fewest small batches worth a thread of their own.
+constexpr std::size_t small_batch_grain = 16;
+
 /// Runs a stage and notes its wall time.
 template <class Work>
 void timed(Statistics& statistics, Stage stage, const Work& work) {
@@ -24,20 +27,12 @@ template <class Work>
 void forBatches(const StepData& data, const Executor& executor, const Work& work) {
     executor.forEachDynamic(data.large_batches, [&](std::size_t i, int thread) { work(data.schedule[i], thread); });
     const std::size_t small = data.schedule.size() - data.large_batches;
-    executor.forBlocks(small, [&](std::size_t begin, std::size_t end, int thread) {
-        for (std::size_t i = begin; i < end; ++i) work(data.schedule[data.large_batches + i], thread);
-    });
-}
-
-void wakeAfterChanges(WorldState& world) {
-    if (world.forces_changed) {
-        const BodyState bodies = world.bodies.state();
-        for (BodyIndex i = 0; i < bodies.size(); ++i) {
-            if (!bodies.isFixed(i)) bodies.wake(i, WakeReason::changed);
-        }
-        world.forces_changed = false;
-    }
-    wakeSpringEnds(world.springs, world.bodies);
+    executor.forBlocks(
+        small,
+        [&](std::size_t begin, std::size_t end, int thread) {
+            for (std::size_t i = begin; i < end; ++i) work(data.schedule[data.large_batches + i], thread);
+        },
+        small_batch_grain);
 }
 
 void buildBatchesStage(WorldState& world) {
@@ -115,7 +110,7 @@ void stepWorld(WorldState& world) {
     ++world.steps;
     world.statistics = {};
     Statistics& statistics = world.statistics;
-    timed(statistics, Stage::events, [&] { wakeAfterChanges(world); });
+    timed(statistics, Stage::events, [&] { wakeSpringEnds(world.springs, world.bodies); });
     timed(statistics, Stage::positions, [&] {
         advancePositions(world.bodies, world.settings.integration, world.settings.timeStep(), world.executor);
     });

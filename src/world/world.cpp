@@ -33,6 +33,11 @@ void WorldState::applySettings(const Settings& s) {
     settings = s;
 }
 
+void WorldState::wakeAll() {
+    const BodyState state = bodies.state();
+    for (BodyIndex i = 0; i < state.size(); ++i) state.wake(i, WakeReason::changed);
+}
+
 World::World(const Settings& settings) {
     validate(settings, Vec3::Zero());
     state_ = std::make_unique<WorldState>(settings);
@@ -72,7 +77,7 @@ void World::setGravity(const Vec3& gravity) {
     validate(state_->settings, gravity + state_->global_acceleration);
     if (gravity == state_->gravity) return;
     state_->gravity = gravity;
-    state_->forces_changed = true;
+    state_->wakeAll();
 }
 
 Vec3 World::gravity() const {
@@ -83,7 +88,7 @@ void World::setGlobalAcceleration(const Vec3& acceleration) {
     validate(state_->settings, state_->gravity + acceleration);
     if (acceleration == state_->global_acceleration) return;
     state_->global_acceleration = acceleration;
-    state_->forces_changed = true;
+    state_->wakeAll();
 }
 
 Vec3 World::globalAcceleration() const {

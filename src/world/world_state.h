@@ -43,6 +43,9 @@ struct WorldState {
     /// Makes the replaceable parts that the settings name. @pre the settings are valid
     void applySettings(const Settings& new_settings);
 
+    /// Wakes every sleeping body, since a force on all of them changed (condition 1).
+    void wakeAll();
+
     Settings settings;
     Executor executor;
     std::unique_ptr<BroadPhase> broad_phase;
@@ -54,7 +57,6 @@ struct WorldState {
     std::vector<Spring> springs;
     Vec3 gravity = Vec3::Zero();              ///< [m/s², W]
     Vec3 global_acceleration = Vec3::Zero();  ///< [m/s², W]
-    bool forces_changed = false;              ///< a global acceleration changed since the last step
 
     std::int64_t steps = 0;
     double time = 0;                  ///< [s]

@@ -16,10 +16,13 @@ TEST_P(ExecutorOnThreads, BlocksCoverEveryItemOnceInAscendingOrder) {
     for (const std::size_t count : {0UL, 1UL, 63UL, 64UL, 1000UL}) {
         std::vector<int> visits(count);
         std::vector<std::size_t> begins(static_cast<std::size_t>(GetParam()));
-        executor.forBlocks(count, [&](std::size_t begin, std::size_t end, int thread) {
-            begins[static_cast<std::size_t>(thread)] = begin;
-            for (std::size_t i = begin; i < end; ++i) ++visits[i];
-        });
+        executor.forBlocks(
+            count,
+            [&](std::size_t begin, std::size_t end, int thread) {
+                begins[static_cast<std::size_t>(thread)] = begin;
+                for (std::size_t i = begin; i < end; ++i) ++visits[i];
+            },
+            8);
         EXPECT_TRUE(std::ranges::all_of(visits, [](int n) { return n == 1; }));
         if (count >= 64) {
             EXPECT_TRUE(std::ranges::is_sorted(begins));
