@@ -42,7 +42,7 @@ class InstallPackages(Sandbox):
         self.user(0)
         self.program("apt-get", f'echo "apt-get $*" >>{self.log}')
         # Only what the script itself needs, so that neither sudo nor sometool of the machine is found.
-        for name in ("awk", "bash", "cat", "dirname", "env", "grep", "sed", "sort", "xargs"):
+        for name in ("awk", "bash", "cat", "dirname", "echo", "env", "grep", "sed", "sort", "xargs"):
             (self.folder / "bin" / name).symlink_to(shutil.which(name))
 
     def list(self, text: str) -> None:
@@ -99,6 +99,12 @@ class InstallPackages(Sandbox):
         done = self.install("test")
         self.assertEqual(done.returncode, 1)
         self.assertIn("apt-get install libtwo-dev", done.stderr)
+
+    def test_another_system_is_told_what_is_wanted_and_goes_on(self):
+        (self.folder / "bin" / "dpkg-query").unlink()
+        done = self.install("build")
+        self.assertEqual((done.returncode, self.calls()), (0, ""))
+        self.assertIn("libone-dev tool-package", done.stderr)
 
     def test_an_unknown_group_is_wrong_use(self):
         done = self.install("biuld")
