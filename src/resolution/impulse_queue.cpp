@@ -28,7 +28,8 @@ void QueueSolver::begin(const BatchView& view, std::span<const Contact> contacts
     threshold_ = -settings.resolution_threshold;
     batch.gather(view, contacts, bodies);
     rows.build(batch);
-    delta_.assign(batch.contacts.size(), infinity);
+    constexpr std::size_t family = TournamentQueue::fan_out;
+    delta_.assign((batch.contacts.size() / family + 1) * family, infinity);
 }
 
 RunOutcome QueueSolver::run(std::span<const std::uint32_t> members, double iterations_per_contact) {
@@ -45,9 +46,10 @@ RunOutcome QueueSolver::runWith(Queue& queue, std::span<const std::uint32_t> mem
     queue.reset(delta_, threshold_);
     for (const std::uint32_t i : members) {
         const ContactFrame& contact = batch.contacts[i];
-        if (isResolvable(contact)) delta_[i] = batch.velocityOf(contact)[0];
-        queue.refresh(i);
+        const double delta = batch.velocityOf(contact)[0];
+        if (isResolvable(contact) && std::isfinite(delta)) delta_[i] = delta;
     }
+    queue.refresh(members);
     RunOutcome outcome;
     for (std::uint32_t next = queue.next(); next != no_contact; next = queue.next()) {
         if (outcome.iterations == limit) {
@@ -68,31 +70,23 @@ std::int64_t QueueSolver::resolve(Queue& queue, std::uint32_t contact) {
     LocalBody& b = batch.bodies[frame.b];
     const Vec3 velocity = relativeVelocity(frame, a, b);
     // δ follows the velocities by adding up their changes; its rounding errors end here, where its value matters.
-    delta_[contact] = velocity[0];
     if (!(velocity[0] < threshold_) || !std::isfinite(velocity[0])) {
-        if (!std::isfinite(velocity[0])) delta_[contact] = infinity;  // never touched again, so that it cannot spread
-        queue.refresh(contact);
+        // What is not finite is never touched again, so that it cannot spread.
+        delta_[contact] = std::isfinite(velocity[0]) ? velocity[0] : infinity;
+        queue.refresh(std::span(&contact, 1));
         return 0;
     }
+    delta_[contact] = velocity[0];
     const Vec3 j = contactImpulse(frame, velocity, settings_.restitution_threshold);
     const ContactChange change = applyImpulse(frame, j, a, b);
-
-    const auto add = [&](std::uint32_t body, const VelocityChange& body_change) {
-        const std::span<const std::uint32_t> contacts = rows.contactsOf(body);
-        const std::span<const NormalRow> body_rows = rows.rowsOf(body);
-        for (std::size_t i = 0; i < contacts.size(); ++i) delta_[contacts[i]] += body_rows[i].changeOf(body_change);
-    };
-    const auto refresh = [&](std::uint32_t body) {
-        for (const std::uint32_t i : rows.contactsOf(body)) queue.refresh(i);
-    };
     // A body of infinite mass keeps its velocity and with it the δ of its contacts.
     const bool a_changes = a.mass_inv > 0;
     const bool b_changes = b.mass_inv > 0;
-    if (a_changes) add(frame.a, change.a);
-    if (b_changes) add(frame.b, change.b);
-    // Only now, with contacts of both bodies complete, may the queue look at δ.
-    if (a_changes) refresh(frame.a);
-    if (b_changes) refresh(frame.b);
+    if (a_changes) rows.update(frame.a, change.a, delta_);
+    if (b_changes) rows.update(frame.b, change.b, delta_);
+    // Only now, with the contacts of both bodies complete, may the queue look at δ.
+    if (a_changes) queue.refresh(rows.contactsOf(frame.a));
+    if (b_changes) queue.refresh(rows.contactsOf(frame.b));
     return 1;
 }
 

@@ -48,8 +48,9 @@ class QueueSolver {
     std::int64_t resolve(Queue& queue, std::uint32_t contact);
 
     ResolutionSettings settings_;
-    double threshold_ = 0;       ///< thr_res < 0 [m/s] (3.4.3)
-    std::vector<double> delta_;  ///< δ = ϑA0 − ϑB0 of the members [m/s]; other contacts have +∞, which updates keep
+    double threshold_ = 0;  ///< thr_res < 0 [m/s] (3.4.3)
+    /// Longer than the contacts: one for NormalRows, and to fill TournamentQueue's families.
+    std::vector<double> delta_;  ///< δ = ϑA0 − ϑB0 of the members [m/s]; all else has +∞, which updates keep
     ArrayQueue array_queue_;
     TournamentQueue tournament_queue_;
     FirstEntryQueue first_entry_queue_;

@@ -12,12 +12,18 @@
 
 namespace cairn {
 
-/// ∂δ/∂(v, w) of one body at one contact: δ = n·(vA − vB) + (rA × n)·ωA − (rB × n)·ωB. @source thesis (3.4.1), (3.4.2)
-struct NormalRow {
-    Vec3 linear;   ///< n for A, −n for B
-    Vec3 angular;  ///< rA × n for A, −rB × n for B [m]
+/// ∂δ/∂(v, w) of one body at two contacts, one per lane, so that one instruction works on both:
+/// δ = n·(vA − vB) + (rA × n)·ωA − (rB × n)·ωB. @source thesis (3.4.1), (3.4.2)
+struct NormalRowPair {
+    using Lanes = Eigen::Array2d;
 
-    double changeOf(const VelocityChange& change) const { return linear.dot(change.v) + angular.dot(change.w); }
+    Lanes linear_x, linear_y, linear_z;     ///< n for A, −n for B
+    Lanes angular_x, angular_y, angular_z;  ///< rA × n for A, −rB × n for B [m]
+
+    Lanes changeOf(const VelocityChange& change) const {
+        return (linear_x * change.v.x() + linear_y * change.v.y() + linear_z * change.v.z()) +
+               (angular_x * change.w.x() + angular_y * change.w.y() + angular_z * change.w.z());
+    }
 };
 
 /// Compressed table of the rows of every dynamic body. Fixed bodies have none: nothing changes them.
@@ -26,19 +32,22 @@ class NormalRows {
     void build(const LocalBatch& batch);
 
     /// Contacts of a body, ascending.
-    std::span<const std::uint32_t> contactsOf(std::uint32_t body) const { return slice(contact_, body); }
-    /// Their rows, in the same order.
-    std::span<const NormalRow> rowsOf(std::uint32_t body) const { return slice(row_, body); }
-
-  private:
-    template <class T>
-    std::span<const T> slice(const std::vector<T>& values, std::uint32_t body) const {
-        return std::span(values).subspan(begin_[body], begin_[body + 1] - begin_[body]);
+    std::span<const std::uint32_t> contactsOf(std::uint32_t body) const {
+        return std::span(contact_).subspan(begin_[body], count_[body]);
     }
 
-    std::vector<std::uint32_t> begin_;    ///< [bodies + 1] offsets
-    std::vector<std::uint32_t> contact_;  ///< [Σ contacts of bodies]
-    std::vector<NormalRow> row_;          ///< [Σ contacts of bodies]
+    /// δ += change by the new velocities of one body, for all its contacts; a NaN becomes +∞.
+    /// @param delta [contacts + 1] the last entry belongs to no contact
+    void update(std::uint32_t body, const VelocityChange& change, std::vector<double>& delta) const;
+
+  private:
+    void count(const LocalBatch& batch);
+    void place(std::uint32_t body, std::uint32_t contact, const Vec3& direction, const Vec3& r);
+
+    std::vector<std::uint32_t> begin_;    ///< [bodies] offsets into contact_, even: each body begins a new pair
+    std::vector<std::uint32_t> count_;    ///< [bodies]
+    std::vector<std::uint32_t> contact_;  ///< contacts by body; an odd list is filled up with "contact" contacts.size()
+    std::vector<NormalRowPair> pair_;     ///< [contact_ / 2] rows in the same order
 };
 
 }  // namespace cairn

@@ -1,6 +1,8 @@
 #include "resolution/queue.h"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <bit>
 
 namespace cairn {
 
@@ -31,50 +33,81 @@ std::uint32_t ArrayQueue::next() {
     return first.contact;
 }
 
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double smallestOfFamily(const double* family) {
+    return Eigen::Map<const Eigen::Array<double, TournamentQueue::fan_out, 1>>(family).minCoeff();
+}
+
+/// Index of the first member that has a value. @pre one has it
+std::size_t firstWith(const double* family, double value) {
+    unsigned mask = 0;  // without branches, which could not be foreseen
+    for (unsigned i = 0; i < TournamentQueue::fan_out; ++i) mask |= static_cast<unsigned>(family[i] == value) << i;
+    return static_cast<std::size_t>(std::countr_zero(mask));
+}
+
+}  // namespace
+
 void TournamentQueue::reset(std::span<const double> delta, double threshold) {
     delta_ = delta;
     threshold_ = threshold;
-    level_begin_.assign(1, 0);
-    std::size_t below = delta.size();
-    do {
-        below = std::max<std::size_t>(1, (below + fan_out - 1) / fan_out);
-        level_begin_.push_back(level_begin_.back() + below);
-    } while (below > 1);
-    nodes_.assign(level_begin_.back(), QueueEntry{});
+    changed_.clear();
+    level_begin_.clear();
+    std::size_t total = 0;
+    for (std::size_t nodes = delta.size() / fan_out;; nodes /= fan_out) {
+        nodes = (nodes + fan_out - 1) / fan_out * fan_out;
+        level_begin_.push_back(total);
+        total += nodes;
+        if (nodes <= fan_out) break;
+    }
+    nodes_.assign(total, infinity);
 }
 
-QueueEntry TournamentQueue::winnerOfContacts(std::size_t node) const {
-    const std::size_t begin = node * fan_out;
-    const std::size_t end = std::min(begin + fan_out, delta_.size());
-    std::size_t winner = no_contact;
-    double smallest = threshold_;
-    for (std::size_t i = begin; i < end; ++i) {
-        if (delta_[i] < smallest) {
-            smallest = delta_[i];
-            winner = i;
-        }
+void TournamentQueue::refresh(std::span<const std::uint32_t> contacts) {
+    std::size_t seen = SIZE_MAX;
+    for (const std::uint32_t i : contacts) {
+        const std::size_t node = i / fan_out;
+        if (node == seen) continue;
+        seen = node;
+        const double smallest = smallestOfFamily(&delta_[node * fan_out]);
+        const double value = smallest < threshold_ ? smallest : infinity;
+        if (value == nodes_[node]) continue;
+        nodes_[node] = value;
+        changed_.push_back(static_cast<std::uint32_t>(node));
     }
-    return winner == no_contact ? QueueEntry{} : QueueEntry{smallest, static_cast<std::uint32_t>(winner)};
 }
 
-void TournamentQueue::replay(const QueueEntry& entry, std::uint32_t contact) {
-    std::size_t index = contact / fan_out;
-    for (std::size_t level = 1; level + 1 < level_begin_.size(); ++level) {
-        const std::size_t below_begin = level_begin_[level - 1];
-        const std::size_t below_end = level_begin_[level];
-        index /= fan_out;
-        QueueEntry& node = nodes_[below_end + index];
-        if (entry < node) {
-            node = entry;
-        } else if (node.contact == contact) {
-            const std::size_t begin = below_begin + index * fan_out;
-            const std::size_t end = std::min(begin + fan_out, below_end);
-            node = nodes_[begin];
-            for (std::size_t i = begin + 1; i < end; ++i) node = std::min(node, nodes_[i]);
-        } else {
-            return;
+void TournamentQueue::carryUp() {
+    for (std::size_t level = 0; level + 1 < level_begin_.size(); ++level) {
+        const double* below = &nodes_[level_begin_[level]];
+        double* nodes = &nodes_[level_begin_[level + 1]];
+        std::size_t kept = 0;
+        std::size_t seen = SIZE_MAX;
+        for (const std::uint32_t child : changed_) {
+            const std::size_t node = child / fan_out;
+            if (node == seen) continue;
+            seen = node;
+            const double value = smallestOfFamily(below + node * fan_out);
+            if (value == nodes[node]) continue;
+            nodes[node] = value;
+            changed_[kept++] = static_cast<std::uint32_t>(node);
         }
+        changed_.resize(kept);
     }
+    changed_.clear();
+}
+
+std::uint32_t TournamentQueue::next() {
+    carryUp();
+    const double smallest = smallestOfFamily(&nodes_[level_begin_.back()]);
+    if (smallest == infinity) return no_contact;
+    std::size_t index = 0;
+    for (std::size_t level = level_begin_.size(); level-- > 0;) {
+        index = index * fan_out + firstWith(&nodes_[level_begin_[level] + index * fan_out], smallest);
+    }
+    return static_cast<std::uint32_t>(index * fan_out + firstWith(&delta_[index * fan_out], smallest));
 }
 
 }  // namespace cairn

@@ -1,9 +1,9 @@
 /// @file The list of closing contacts of Algorithm 9, in three forms with one interface. @source thesis §3.8
 ///
-/// All read δ from the solver's array, are told by refresh(i) that δ[i] has changed (once all changes are
-/// made; repeating it is harmless), and give the next contact to resolve by next(). A contact is in the queue iff δ <
-/// threshold (so a NaN never is). The smallest δ wins; of equal ones the lower index, which makes ArrayQueue and
-/// TournamentQueue give the same order, bit for bit.
+/// All read δ from the solver's array, are told by refresh() which δ have changed (once all changes are made; telling
+/// twice is harmless), and give the next contact to resolve by next(). A contact is in the queue iff δ < threshold.
+/// The smallest δ wins; of equal ones the lower index, which makes ArrayQueue and TournamentQueue give the same order,
+/// bit for bit.
 #pragma once
 
 #include <algorithm>
@@ -71,8 +71,10 @@ class ClosingList {
 class ArrayQueue {
   public:
     void reset(std::span<const double> delta, double threshold);
-    void refresh(std::uint32_t contact) {
-        if (list_.refresh(contact)) updated_ = std::min(updated_, QueueEntry{delta_[contact], contact});
+    void refresh(std::span<const std::uint32_t> contacts) {
+        for (const std::uint32_t i : contacts) {
+            if (list_.refresh(i)) updated_ = std::min(updated_, QueueEntry{delta_[i], i});
+        }
     }
     std::uint32_t next();
 
@@ -87,44 +89,35 @@ class ArrayQueue {
 class FirstEntryQueue {
   public:
     void reset(std::span<const double> delta, double threshold) { list_.reset(delta, threshold); }
-    void refresh(std::uint32_t contact) { list_.refresh(contact); }
+    void refresh(std::span<const std::uint32_t> contacts) {
+        for (const std::uint32_t i : contacts) list_.refresh(i);
+    }
     std::uint32_t next() const { return list_.entries().empty() ? no_contact : list_.entries().front().contact; }
 
   private:
     ClosingList list_;
 };
 
-/// For many contacts: a tournament tree over all contacts. Every node holds the winner of `fan_out` neighbours of the
-/// level below; the winner of the root is next. Unlike in a heap nothing moves: a changed δ that neither was nor
-/// becomes the winner of its first node, the usual case, costs two comparisons.
+/// For many contacts: a tree in which every node holds the smallest δ of `fan_out` neighbours of the level below, or +∞
+/// if none is below the threshold. Unlike in a heap nothing moves, and the contacts of a body, being neighbours, share
+/// nodes: a resolution looks once at each node it affects, whose eight children fill one cache line.
 class TournamentQueue {
   public:
+    static constexpr std::size_t fan_out = 8;
+
+    /// @pre the size of delta is a multiple of fan_out, and no δ is ever a NaN
     void reset(std::span<const double> delta, double threshold);
-    void refresh(std::uint32_t contact) {
-        const double delta = delta_[contact];
-        const QueueEntry entry = delta < threshold_ ? QueueEntry{delta, contact} : QueueEntry{};
-        QueueEntry& node = nodes_[contact / fan_out];
-        if (entry < node) {
-            node = entry;
-        } else if (node.contact == contact) {
-            node = winnerOfContacts(contact / fan_out);
-        } else {
-            return;
-        }
-        replay(entry, contact);
-    }
-    std::uint32_t next() const { return nodes_.back().contact; }
+    void refresh(std::span<const std::uint32_t> contacts);
+    std::uint32_t next();
 
   private:
-    static constexpr std::size_t fan_out = 8;  // eight δ fill one cache line
-
-    QueueEntry winnerOfContacts(std::size_t node) const;
-    void replay(const QueueEntry& entry, std::uint32_t contact);
+    void carryUp();
 
     std::span<const double> delta_;
     double threshold_ = 0;
-    std::vector<QueueEntry> nodes_;         ///< all levels from the lowest up; the last node is the root
-    std::vector<std::size_t> level_begin_;  ///< [levels + 1] offsets into nodes_
+    std::vector<double> nodes_;             ///< levels from the lowest up, each filled up with +∞ to full families
+    std::vector<std::size_t> level_begin_;  ///< [levels] offsets into nodes_; the last level is one family
+    std::vector<std::uint32_t> changed_;    ///< nodes of one level whose value is new, each run of equals once
 };
 
 }  // namespace cairn
