@@ -10,14 +10,19 @@
 namespace cairn::test {
 namespace {
 
-constexpr std::uint64_t worlds = 20000;
+constexpr std::uint64_t worlds = 10000;
+
+/// Every eighth world is larger, so that pushes travel through more bodies.
+ContactScene world(std::uint64_t seed) {
+    return randomScene(seed, seed % 8 == 0 ? 30 : 11);
+}
 
 TEST(PropagatedCorrection, ChoosesAndMovesAsTheLiteralAlgorithmWithoutAbort) {
     const auto correction = makeCorrection(CorrectionKind::propagated);
     std::int64_t uncorrected = 0;
     ReferenceCorrection::Seen seen;
     for (std::uint64_t seed = 0; seed < worlds; ++seed) {
-        ContactScene scene = randomScene(seed);
+        ContactScene scene = world(seed);
         ContactScene expected = scene;
         const CorrectionCounts counts = scene.correctWith(*correction);
         ReferenceCorrection reference(expected);
@@ -46,12 +51,12 @@ TEST(PropagatedCorrection, ChoosesAndMovesAsTheLiteralAlgorithmWithoutAbort) {
     EXPECT_GT(seen.steps_back, 1000);
     EXPECT_GT(seen.handed_on, 1000);
     EXPECT_GT(seen.closed_gaps, 1000);
-    EXPECT_GT(seen.chosen_tied, 100);
+    EXPECT_GT(seen.chosen_tied, 50);
 }
 
 TEST(PropagatedCorrection, MakesNoContactDeeperThanItWasOrThanMayRemain) {
     for (std::uint64_t seed = 0; seed < worlds; ++seed) {
-        ContactScene scene = randomScene(seed);
+        ContactScene scene = world(seed);
         const std::vector<Contact> before = scene.contacts;
         scene.correct();
         for (std::size_t i = 0; i < before.size(); ++i) {
@@ -63,7 +68,7 @@ TEST(PropagatedCorrection, MakesNoContactDeeperThanItWasOrThanMayRemain) {
 
 TEST(PropagatedCorrection, MovesPositionsOnlyAndOfBodiesInReachOnly) {
     for (std::uint64_t seed = 0; seed < worlds; ++seed) {
-        ContactScene scene = randomScene(seed);
+        ContactScene scene = world(seed);
         // What a penetrating contact can reach, found by repeated passes over all contacts.
         std::vector<bool> reached(scene.kind.size(), false);
         for (std::size_t pass = 0; pass <= scene.kind.size(); ++pass) {
@@ -99,7 +104,7 @@ TEST(PropagatedCorrection, MovesPositionsOnlyAndOfBodiesInReachOnly) {
 TEST(PropagatedCorrection, GivesTheSameBitsWithFreshAndWithUsedMemory) {
     const auto used = makeCorrection(CorrectionKind::propagated);
     for (std::uint64_t seed = 0; seed < worlds; ++seed) {
-        ContactScene first = randomScene(seed);
+        ContactScene first = world(seed);
         ContactScene second = first;
         first.correctWith(*used);
         second.correct();

@@ -36,12 +36,13 @@ class Random {
 
 /// Bodies at random places with contacts between random pairs. Normals mostly point from centre to centre, as in a
 /// pile, sometimes anywhere; distances are around the threshold; many bodies have no velocity, some sleep.
-inline ContactScene randomScene(std::uint64_t seed) {
+/// @param largest number of bodies, ≥ 2
+inline ContactScene randomScene(std::uint64_t seed, std::size_t largest = 11) {
     Random random(seed);
     ContactScene scene;
     scene.settings.penetration_threshold = random.chance(0.2) ? 1e-9 : 1.74e-3;
     scene.settings.remaining_penetration = random.uniform(0.1, 0.9);
-    const std::size_t bodies = 2 + random.below(10);
+    const std::size_t bodies = 2 + random.below(largest - 1);
     for (std::size_t i = 0; i < bodies; ++i) {
         const Vec3 at(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
         const BodyIndex body = random.chance(0.15) ? scene.addFixed(at) : scene.addBody(at);

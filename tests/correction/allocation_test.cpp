@@ -1,0 +1,74 @@
+/// @file Counts heap allocations by replacing the operators of this test program.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <numeric>
+#include <vector>
+
+#include "correction/contact_scene.h"
+
+namespace {
+
+std::atomic<std::int64_t>& allocations() {
+    static std::atomic<std::int64_t> count{0};
+    return count;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+    ++allocations();
+    if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+    throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+
+namespace cairn::test {
+namespace {
+
+TEST(PropagatedCorrection, AllocatesNothingOnceItHasSeenTheWorld) {
+    // A pyramid of touching bodies in which every layer pushes the next through gaps of different size.
+    ContactScene scene;
+    scene.settings.penetration_threshold = 1e-3;
+    std::vector<BodyIndex> below{scene.addFixed()};
+    for (int layer = 0; layer < 20; ++layer) {
+        std::vector<BodyIndex> bodies;
+        for (int i = 0; i < 5; ++i) {
+            bodies.push_back(scene.addBody({i * 0.1, 0, layer * 0.1}));
+            for (std::size_t k = 0; k < below.size(); ++k) {
+                const double gap = 1e-5 * static_cast<double>((7 * k + 3 * static_cast<std::size_t>(i)) % 5);
+                scene.touch(bodies.back(), below[k], Vec3::UnitZ(), layer == 0 ? -0.05 : -5e-4 + gap);
+            }
+        }
+        below = bodies;
+    }
+    const ContactScene start = scene;
+    std::vector<std::uint32_t> indices(scene.contacts.size());
+    std::iota(indices.begin(), indices.end(), 0U);
+    const ContactsOfBodies table = scene.contactsOfBodies();
+    const auto correction = makeCorrection(CorrectionKind::propagated);
+    const auto step = [&] {
+        std::copy(start.contacts.begin(), start.contacts.end(), scene.contacts.begin());
+        const std::int64_t before = allocations();
+        const CorrectionCounts counts =
+            correction->correct({{}, indices}, table, scene.contacts, scene.state(), scene.settings);
+        EXPECT_EQ(counts.corrected, 5);
+        EXPECT_GE(counts.displaced, 100);
+        return allocations() - before;
+    };
+    EXPECT_GT(step(), 0);
+    EXPECT_EQ(step(), 0);
+    EXPECT_EQ(step(), 0);
+}
+
+}  // namespace
+}  // namespace cairn::test
