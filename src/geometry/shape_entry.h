@@ -1,0 +1,58 @@
+/// @file The table of shapes: one entry per kind, each filled in by the file of its shape.
+#pragma once
+
+#include <string_view>
+
+#include "geometry/geometry.h"
+
+namespace cairn {
+
+/// What a kind of shape can do; the functions mean what those of geometry.h mean.
+struct ShapeEntry {
+    std::string_view name;
+    void (*validate)(const Shape&);
+    UnitMassProperties (*mass_properties)(const Shape&);
+    double (*largest_radius)(const Shape&);
+    Bounds (*bounds)(const Shape&, const Pose&);
+    Vec3 (*support)(const Shape&, const Vec3&);  ///< null for infinite shapes
+};
+
+/// Adapts functions that take the shape's own type. @tparam S the alternative of Shape they belong to
+template <class S, void (*validate)(const S&), UnitMassProperties (*mass_properties)(const S&),
+          double (*largest_radius)(const S&), Bounds (*bounds)(const S&, const Pose&)>
+constexpr ShapeEntry infiniteShapeEntry(std::string_view name) {
+    return {name,
+            [](const Shape& shape) { validate(*std::get_if<S>(&shape)); },
+            [](const Shape& shape) { return mass_properties(*std::get_if<S>(&shape)); },
+            [](const Shape& shape) { return largest_radius(*std::get_if<S>(&shape)); },
+            [](const Shape& shape, const Pose& pose) { return bounds(*std::get_if<S>(&shape), pose); },
+            nullptr};
+}
+
+/// The same for a shape that has an end in every direction.
+template <class S, void (*validate)(const S&), UnitMassProperties (*mass_properties)(const S&),
+          double (*largest_radius)(const S&), Bounds (*bounds)(const S&, const Pose&),
+          Vec3 (*support)(const S&, const Vec3&)>
+constexpr ShapeEntry finiteShapeEntry(std::string_view name) {
+    ShapeEntry entry = infiniteShapeEntry<S, validate, mass_properties, largest_radius, bounds>(name);
+    entry.support = [](const Shape& shape, const Vec3& direction) {
+        return support(*std::get_if<S>(&shape), direction);
+    };
+    return entry;
+}
+
+/// Each stands in the file of its shape.
+const ShapeEntry& sphereEntry();
+const ShapeEntry& boxEntry();
+const ShapeEntry& capsuleEntry();
+const ShapeEntry& halfSpaceEntry();
+
+/// Smallest and largest length of a shape [m]: between them no volume, inertia or inverse leaves the range of double,
+/// and tiny_length stays far below any shape.
+inline constexpr double smallest_dimension = 1e-6;
+inline constexpr double largest_dimension = 1e9;
+
+/// @param what names the length in the message @throws InputError if it is not within the limits above
+void validateDimension(std::string_view what, double length);
+
+}  // namespace cairn
