@@ -35,10 +35,14 @@ CellCoordinates cellOf(const Vec3& point, double edge_inv) {
             cellCoordinate(point.z(), edge_inv)};
 }
 
-/// Bounds::overlaps without branches, since nobody can predict them.
-bool overlap(const Bounds& p, const Bounds& q) {
-    return (p.lower.x() <= q.upper.x()) & (q.lower.x() <= p.upper.x()) & (p.lower.y() <= q.upper.y()) &
-           (q.lower.y() <= p.upper.y()) & (p.lower.z() <= q.upper.z()) & (q.lower.z() <= p.upper.z());
+unsigned atMost(double x, double y) {
+    return x <= y ? 1u : 0u;
+}
+
+/// Bounds::overlaps without branches, since nobody can predict them. @return 0 or 1
+unsigned overlap(const Bounds& p, const Bounds& q) {
+    return atMost(p.lower.x(), q.upper.x()) & atMost(q.lower.x(), p.upper.x()) & atMost(p.lower.y(), q.upper.y()) &
+           atMost(q.lower.y(), p.upper.y()) & atMost(p.lower.z(), q.upper.z()) & atMost(q.lower.z(), p.upper.z());
 }
 
 /// Calls work(position) for each set bit, ascending.
@@ -153,7 +157,7 @@ inline void HashGrids::testRow(const Entry& entry, const Range& others, PairBuff
         const Entry& other = entries_[j];
         out[count].a = std::min(entry.body, other.body);
         out[count].b = std::max(entry.body, other.body);
-        count += overlap(entry.bounds, other.bounds) ? 1 : 0;
+        count += overlap(entry.bounds, other.bounds);
     }
     found.commit(count);
 }
@@ -235,7 +239,7 @@ void HashGrids::searchCoarserBlock(const Block& block, const Bounds& around, con
     forEachPosition(coarse.occupied & positions, [&](unsigned position) {
         const Cell& other = cells_[coarse.cell(position)];
         for (std::uint32_t i = other.begin; i < other.end; ++i) {
-            if (!overlap(entries_[i].bounds, around)) continue;
+            if (overlap(entries_[i].bounds, around) == 0) continue;
             if (i < other.fixed_begin) {
                 testRow(entries_[i], all, found);
                 continue;
@@ -254,10 +258,10 @@ void HashGrids::searchApart(const BroadPhaseInput& input, std::size_t begin, std
         std::size_t count = 0;
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
             // Two bodies apart meet when it is the turn of the lower one.
-            const bool once = (level[i] >= 0) | ((level[i] == GridLevels::apart) & (i > p));
-            const bool movable = !p_fixed | (input.kind[i] == BodyKind::dynamic);
+            const bool once = level[i] >= 0 || (level[i] == GridLevels::apart && i > p);
+            const bool movable = !p_fixed || input.kind[i] == BodyKind::dynamic;
             out[count] = {std::min(p, i), std::max(p, i)};
-            count += (once & movable & overlap(bounds, input.bounds[i])) ? 1 : 0;
+            count += once && movable ? overlap(bounds, input.bounds[i]) : 0;
         }
         found.commit(count);
     }
