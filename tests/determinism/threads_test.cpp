@@ -45,8 +45,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Threads,
                                          Case{"well392", 1.0}, Case{"cage384", 2.0}, Case{"cage2816", 0.6},
                                          Case{"catapult7", 2.0}, Case{"catapult15", 2.0}, Case{"cradle", 2.0},
                                          Case{"tower:10", 1.0}, Case{"wall:10", 0.5}, Case{"heap:100", 1.5}),
-                         [](const auto& info) {
-                             std::string name = info.param.scene;
+                         [](const auto& test) {
+                             std::string name = test.param.scene;
                              for (char& c : name) {
                                  if (c == ':') c = '_';
                              }
