@@ -5,7 +5,7 @@
 namespace cairn {
 
 void BlockTable::reset() {
-    const std::size_t places = std::bit_ceil(std::max<std::size_t>(4 * blocks_.size(), 64));
+    const std::size_t places = std::bit_ceil(std::max<std::size_t>(2 * blocks_.size(), 64));
     blocks_.clear();
     resize(places);
 }
