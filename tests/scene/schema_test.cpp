@@ -94,25 +94,37 @@ TEST(SceneSchema, RequiresWhatTheReaderRequires) {
     expectRequired(root.at("$defs").at("spring"), complete, spring, asSpring);
 }
 
+/// A number as it is written by hand: without a point where it is whole.
+Json plainNumber(double value) {
+    const auto whole = static_cast<std::int64_t>(value);
+    return static_cast<double>(whole) == value ? Json(whole) : Json(value);
+}
+
+/// What the schema has to say of a field of the settings.
+Json describeField(const SettingField& field) {
+    Json entry;
+    const SettingValue value = field.get(Settings{});
+    if (std::holds_alternative<bool>(value)) {
+        entry["type"] = "boolean";
+    } else if (std::holds_alternative<std::string>(value)) {
+        entry["enum"] = std::vector<std::string>(field.choices.begin(), field.choices.end());
+    } else {
+        entry["type"] = std::holds_alternative<double>(value) ? "number" : "integer";
+        entry["minimum"] = plainNumber(field.minimum);
+        entry["maximum"] = plainNumber(field.maximum);
+    }
+    entry["description"] =
+        std::string(field.meaning) + (field.unit.empty() ? "" : " [" + std::string(field.unit) + "]");
+    return entry;
+}
+
 TEST(SceneSchema, ListsAllSettingsWithTheirRanges) {
     const Json settings = schema().at("$defs").at("settings").at("properties");
-    EXPECT_EQ(settings.size(), settingFields().size() + 1) << "the fields and preset";
-    for (const SettingField& field : settingFields()) {
-        const std::string name(field.name);
-        ASSERT_TRUE(settings.contains(name)) << name;
-        const Json& entry = settings.at(name);
-        const SettingValue value = field.get(Settings{});
-        if (std::holds_alternative<bool>(value)) {
-            EXPECT_EQ(entry.at("type"), "boolean") << name;
-        } else if (std::holds_alternative<std::string>(value)) {
-            EXPECT_EQ(entry.at("enum").get<std::vector<std::string>>(),
-                      std::vector<std::string>(field.choices.begin(), field.choices.end()));
-        } else {
-            EXPECT_EQ(entry.at("type"), std::holds_alternative<double>(value) ? "number" : "integer") << name;
-            EXPECT_EQ(entry.at("minimum").get<double>(), field.minimum) << name;
-            EXPECT_EQ(entry.at("maximum").get<double>(), field.maximum) << name;
-        }
-    }
+    Json expected;
+    expected["preset"] = settings.at("preset");
+    for (const SettingField& field : settingFields()) expected[std::string(field.name)] = describeField(field);
+    EXPECT_TRUE(settings == expected) << "settings changed; their properties in docs/scene.schema.json must be:\n"
+                                      << expected.dump(2);
 }
 
 }  // namespace
