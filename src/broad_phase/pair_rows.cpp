@@ -11,6 +11,8 @@ namespace {
 
 /// Rows up to this length are sorted by insertion.
 constexpr std::ptrdiff_t short_row = 24;
+/// Below this many pairs waking other threads costs more than they save.
+constexpr std::size_t serial_limit = 32768;
 
 void sortRow(BodyPair* begin, BodyPair* end) {
     const auto byPartner = [](const BodyPair& p, const BodyPair& q) { return p.b < q.b; };
@@ -35,21 +37,25 @@ void PairBuffer::grow(std::size_t needed) {
 
 void PairRows::sort(std::span<const PairBuffer> parts, std::size_t slots, const Executor& executor,
                     std::vector<BodyPair>& pairs) {
-    count(parts, slots, executor);
+    std::size_t total = 0;
+    for (const PairBuffer& part : parts) total += part.pairs().size();
+    const Executor workers(total < serial_limit ? 1 : executor.threads());
+
+    count(parts, slots, workers);
     pairs.resize(placeRows(parts.size(), slots));
 
     const auto scatter = [&](std::size_t part, int) {
         auto& cursor = cursor_[part];
         for (const BodyPair& pair : parts[part].pairs()) pairs[cursor[pair.a]++] = pair;
     };
-    executor.forEachDynamic(parts.size(), std::cref(scatter));
+    workers.forEachDynamic(parts.size(), std::cref(scatter));
 
     const auto sortRows = [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t a = begin; a < end; ++a) {
             sortRow(pairs.data() + row_begin_[a], pairs.data() + row_begin_[a + 1]);
         }
     };
-    executor.forBlocks(slots, std::cref(sortRows));
+    workers.forBlocks(slots, std::cref(sortRows));
 }
 
 void PairRows::count(std::span<const PairBuffer> parts, std::size_t slots, const Executor& executor) {

@@ -230,11 +230,11 @@ TEST(HashGrids, AnInstanceForgetsTheStepBefore) {
 
 TEST(HashGrids, AreTheSameOnAnyNumberOfThreads) {
     Random random(13);
-    Bodies bodies = allSizes(random, 5000, 0.001, Vec3(10, 20, -30));
+    Bodies bodies = allSizes(random, 12000, 0.001, Vec3(10, 20, -30));
     for (int i = 0; i < 3; ++i) bodies.add(Bounds{}, BodyKind::fixed);
     bodies.shuffle(random);
     const auto expected = pairsOf(BroadPhaseKind::hash_grids, bodies);
-    ASSERT_GT(expected.size(), 20000u);
+    ASSERT_GT(expected.size(), 40000u) << "few pairs are sorted by one thread";
     for (const int threads : {2, 3, 4, 8}) EXPECT_EQ(pairsOf(BroadPhaseKind::hash_grids, bodies, threads), expected);
 }
 
