@@ -46,18 +46,25 @@ void NormalRows::build(const LocalBatch& batch) {
     }
 }
 
-void NormalRows::update(std::uint32_t body, const VelocityChange& change, std::vector<double>& delta) const {
+void NormalRows::update(std::uint32_t body, const VelocityChange& change, std::span<double> delta) const {
     using Lanes = NormalRowPair::Lanes;
-    const std::uint32_t begin = begin_[body];
-    const std::uint32_t end = begin + count_[body];
-    for (std::uint32_t i = begin; i < end; i += 2) {
-        double& first = delta[contact_[i]];
-        double& second = delta[contact_[i + 1]];
-        const Lanes sum = Lanes(first, second) + pair_[i / 2].changeOf(change);
-        // In this order a NaN fails the comparison, and both turn into one instruction.
+    const Lanes vx = Lanes::Constant(change.v.x()), wx = Lanes::Constant(change.w.x());
+    const Lanes vy = Lanes::Constant(change.v.y()), wy = Lanes::Constant(change.w.y());
+    const Lanes vz = Lanes::Constant(change.v.z()), wz = Lanes::Constant(change.w.z());
+    // In this order a NaN fails the comparison, and it turns into one instruction.
+    const auto finiteOrInfinity = [](double x) {
         constexpr double infinity = std::numeric_limits<double>::infinity();
-        first = sum[0] < infinity ? sum[0] : infinity;
-        second = sum[1] < infinity ? sum[1] : infinity;
+        return x < infinity ? x : infinity;
+    };
+    const std::uint32_t* contact = contact_.data() + begin_[body];
+    const NormalRowPair* pair = pair_.data() + begin_[body] / 2;
+    for (const std::uint32_t* end = contact + count_[body]; contact < end; contact += 2, ++pair) {
+        double& first = delta[contact[0]];
+        double& second = delta[contact[1]];
+        const Lanes sum = Lanes(first, second) + ((pair->linear_x * vx + pair->linear_y * vy + pair->linear_z * vz) +
+                                                  (pair->angular_x * wx + pair->angular_y * wy + pair->angular_z * wz));
+        first = finiteOrInfinity(sum[0]);
+        second = finiteOrInfinity(sum[1]);
     }
 }
 

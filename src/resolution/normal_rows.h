@@ -19,11 +19,6 @@ struct NormalRowPair {
 
     Lanes linear_x, linear_y, linear_z;     ///< n for A, −n for B
     Lanes angular_x, angular_y, angular_z;  ///< rA × n for A, −rB × n for B [m]
-
-    Lanes changeOf(const VelocityChange& change) const {
-        return (linear_x * change.v.x() + linear_y * change.v.y() + linear_z * change.v.z()) +
-               (angular_x * change.w.x() + angular_y * change.w.y() + angular_z * change.w.z());
-    }
 };
 
 /// Compressed table of the rows of every dynamic body. Fixed bodies have none: nothing changes them.
@@ -38,7 +33,7 @@ class NormalRows {
 
     /// δ += change by the new velocities of one body, for all its contacts; a NaN becomes +∞.
     /// @param delta [contacts + 1] the last entry belongs to no contact
-    void update(std::uint32_t body, const VelocityChange& change, std::vector<double>& delta) const;
+    void update(std::uint32_t body, const VelocityChange& change, std::span<double> delta) const;
 
   private:
     void count(const LocalBatch& batch);

@@ -1,6 +1,5 @@
 #include "resolution/queue.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <bit>
 
@@ -37,8 +36,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Reads member by member: the members were just written one by one, and a processor cannot hand such writes on to a
+/// wider read before they have reached the cache.
 double smallestOfFamily(const double* family) {
-    return Eigen::Map<const Eigen::Array<double, TournamentQueue::fan_out, 1>>(family).minCoeff();
+    const auto lesser = [](double x, double y) { return x < y ? x : y; };
+    return lesser(lesser(lesser(family[0], family[1]), lesser(family[2], family[3])),
+                  lesser(lesser(family[4], family[5]), lesser(family[6], family[7])));
 }
 
 /// Index of the first member that has a value. @pre one has it
