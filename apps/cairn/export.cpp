@@ -1,6 +1,8 @@
 /// @file cairn export: recordings as files of other programs.
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "cairn/recording.h"
 #include "commands.h"
 

@@ -1,6 +1,8 @@
 /// @file cairn info: what stands in a recording or a scene.
 #include <fmt/format.h>
 
+#include <memory>
+
 #include <array>
 #include <fstream>
 #include <map>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
@@ -27,7 +27,7 @@ constexpr std::int64_t most_threads = 1024;
 
 struct RunOptions {
     std::string scene;
-    std::optional<Preset> preset;
+    std::string preset;  ///< empty = not given
     std::optional<std::int64_t> threads;
     std::optional<double> steps_per_second;
     std::optional<double> duration;
@@ -52,7 +52,10 @@ std::int64_t allCores() {
 
 /// What the command line changes. The threads are all cores unless somebody asks for a number.
 SettingOverrides overridesFrom(const RunOptions& options, const Scene& scene) {
-    SettingOverrides overrides{options.preset, options.steps_per_second, {}};
+    SettingOverrides overrides{{}, options.steps_per_second, {}};
+    if (!options.preset.empty()) {
+        overrides.preset = options.preset == "accuracy" ? Preset::accuracy : Preset::performance;
+    }
     const bool scene_decides = std::any_of(scene.settings.begin(), scene.settings.end(),
                                            [](const auto& field) { return field.first == "threads"; });
     if (options.threads || !scene_decides) {
@@ -176,11 +179,9 @@ int runScene(const RunOptions& options) {
 void addRun(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("run", "Simulate a scene and report how fast and how accurate it was");
     auto options = std::make_shared<RunOptions>();
-    const std::map<std::string, Preset> presets = {{"performance", Preset::performance},
-                                                   {"accuracy", Preset::accuracy}};
     command->add_option("SCENE", options->scene, "The name of a built-in scene, or a scene file")->required();
-    command->add_option("--preset", options->preset, "performance (also the default) or accuracy")
-        ->transform(CLI::CheckedTransformer(presets));
+    command->add_option("--preset", options->preset, "The default is the scene's, or else performance")
+        ->check(CLI::IsMember({"performance", "accuracy"}));
     command->add_option("--threads", options->threads, "Threads of a step; default: all cores");
     command->add_option("--steps-per-second", options->steps_per_second,
                         "Time steps per simulated second; default: the preset's");

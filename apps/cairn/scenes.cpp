@@ -12,7 +12,7 @@ void addScenes(CLI::App& app, int&) {
     command->callback([] {
         std::string text;
         for (const BuiltInScene& scene : builtInScenes()) {
-            text += fmt::format("{:<12} {}", scene.name, scene.description);
+            text += fmt::format("{:<13} {}", scene.name, scene.description);
             if (scene.example != scene.name) text += fmt::format(", for example {}", scene.example);
             text += '\n';
         }

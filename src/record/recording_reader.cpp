@@ -15,10 +15,17 @@ namespace {
 
 using hdf5::checked;
 
-hdf5::File openFile(const std::filesystem::path& path, const FileState state) {
+/// HDF5 reads metadata again when a writer was in the middle of it. Its own limit of 100 attempts takes minutes on a
+/// truncated file.
+constexpr unsigned metadata_read_attempts = 10;
+
+hdf5::File openFile(const std::filesystem::path& path, const FileState& state) {
     // A file that its writer did not close (yet) can only be opened as a reader beside a writer.
     const unsigned flags = state.closed ? H5F_ACC_RDONLY : H5F_ACC_RDONLY | H5F_ACC_SWMR_READ;
-    return hdf5::File(H5Fopen(path.c_str(), flags, H5P_DEFAULT), path, "is damaged, or truncated");
+    const hdf5::Properties access(H5Pcreate(H5P_FILE_ACCESS), path, "cannot be opened");
+    checked(H5Pset_metadata_read_attempts(access.get(), metadata_read_attempts), path, "cannot be opened");
+    return hdf5::File(H5Fopen(path.c_str(), flags, access.get()), path,
+                      "is damaged, or its writer ended before the first frame");
 }
 
 void requireRecording(const hdf5::File& file, const std::filesystem::path& path) {
@@ -55,6 +62,16 @@ std::string textAttribute(const hdf5::File& file, const std::filesystem::path& p
 struct RecordingReader::Impl {
     explicit Impl(const std::filesystem::path& file_path) : path(file_path) {
         const FileState state = checkFile(path);
+        try {
+            load(state);
+        } catch (const IoError&) {
+            // What is wrong with a file that is too short is that it is too short.
+            requireLength(path, state.length);
+            throw;
+        }
+    }
+
+    void load(const FileState& state) {
         file = openFile(path, state);
         requireRecording(file, path);
         info.scene = readRecordedScene(file, path);
@@ -65,7 +82,7 @@ struct RecordingReader::Impl {
             hdf5::Group(H5Gopen2(file.get(), layout::settings, H5P_DEFAULT), path, "settings"), path);
         series.emplace(file, path, info.bodies);
         info.frames = countFrames();
-        if (!state.closed) requireAllInFile(path);
+        if (!state.closed) requireAllInFile();
         quaternions.resize(info.bodies);
     }
 
@@ -86,14 +103,14 @@ struct RecordingReader::Impl {
     }
 
     /// HDF5 does not compare the length of a file that was not closed with what it refers to.
-    void requireAllInFile(const std::filesystem::path& name) {
+    void requireAllInFile() {
         haddr_t end = 0;
         const auto visit = [&](const hdf5::SeriesReader& s) {
             for (hsize_t frame = 0; frame < info.frames; ++frame) end = std::max(end, s.endInFile(frame));
         };
         visit(series->time);
         series->forEachButTime(visit);
-        requireLength(name, end);
+        requireLength(path, end);
     }
 
     std::filesystem::path path;

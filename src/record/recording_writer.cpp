@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstring>
 #include <numeric>
+#include <optional>
 
 #include "cairn/recording.h"
 #include "cairn/version.h"
 #include "record/attributes.h"
+#include "record/file_driver.h"
 #include "record/frame_series.h"
 #include "record/machine.h"
 
@@ -16,12 +19,15 @@ namespace {
 using hdf5::checked;
 
 /// A new file that others may read while it grows.
-hdf5::File createFile(const std::filesystem::path& path) {
+hdf5::File createFile(const std::filesystem::path& path, const hdf5::FileDriver& driver, hdf5::WriteState& state) {
     const hdf5::Properties access(H5Pcreate(H5P_FILE_ACCESS), path, "cannot be created");
     // Single writer, multiple readers needs the file format of HDF5 1.10, which later versions read as well.
     checked(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110), path, "cannot be created");
     checked(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), path, "cannot be created");
-    return hdf5::File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), path, "cannot be created");
+    driver.useFor(access, state, path);
+    hdf5::File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
+    if (!file && state.error == 0) hdf5::fail(path, "cannot be created");
+    return file;
 }
 
 std::string stageNames() {
@@ -58,10 +64,12 @@ void refuseWrongSize(std::size_t size, std::size_t bodies, const char* what) {
 
 struct RecordingWriter::Impl {
     Impl(const std::filesystem::path& file_path, const Scene& scene, const Settings& settings)
-        : path(file_path), bodies(scene.bodies.size()), file(createFile(path)) {
+        : path(file_path), bodies(scene.bodies.size()), driver(path), file(createFile(path, driver, writes)) {
+        requireWritten("cannot be created");
         writeMetadata(file, path, scene, settings);
         series.emplace(file, path, bodies);
         checked(H5Fstart_swmr_write(file.get()), path, "cannot be made readable while it is written");
+        requireWritten("cannot be written");
         quaternions.resize(bodies);
     }
 
@@ -90,14 +98,22 @@ struct RecordingWriter::Impl {
         for (std::size_t i = 0; i < layout::overlaps.size(); ++i) {
             series->overlaps[i].append(frames, &(frame.statistics.*layout::overlaps[i].member));
         }
-        series->forEachButTime([](hdf5::SeriesWriter& s) { s.flush(); });
+        checked(H5Fflush(file.get(), H5F_SCOPE_LOCAL), path, "cannot be written");
         series->time.append(frames, &frame.time);
-        series->time.flush();
+        checked(H5Fflush(file.get(), H5F_SCOPE_LOCAL), path, "cannot be written");
+        requireWritten("cannot be written");
         ++frames;
+    }
+
+    void requireWritten(std::string_view what) const {
+        if (writes.error == 0) return;
+        throw IoError(fmt::format("{}: {}: {}", path.string(), what, std::strerror(writes.error)));
     }
 
     std::filesystem::path path;
     std::size_t bodies;
+    hdf5::WriteState writes;
+    hdf5::FileDriver driver;
     hdf5::File file;
     std::optional<hdf5::FrameSeries<hdf5::SeriesWriter>> series;
     std::vector<std::array<double, 4>> quaternions;  ///< w, x, y, z
@@ -136,6 +152,7 @@ void RecordingWriter::close() {
     const hdf5::QuietErrors quiet;
     impl.series.reset();
     checked(impl.file.close(), impl.path, "cannot be closed");
+    if (!impl.failed) impl.requireWritten("cannot be written");
 }
 
 }  // namespace cairn

@@ -1,0 +1,53 @@
+#include "override_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <thread>
+
+namespace cairn::cli {
+
+namespace {
+
+constexpr std::int64_t most_threads = 1024;
+
+std::pair<std::string, std::string> splitField(const std::string& text) {
+    const std::size_t at = text.find('=');
+    if (at == std::string::npos || at == 0) {
+        throw InputError(fmt::format("--set is given '{}'; it must be field=value, for example --set damping=0", text));
+    }
+    return {text.substr(0, at), text.substr(at + 1)};
+}
+
+std::int64_t allCores() {
+    return std::clamp<std::int64_t>(std::thread::hardware_concurrency(), 1, most_threads);
+}
+
+}  // namespace
+
+void addOverrideOptions(CLI::App& command, OverrideOptions& options) {
+    const std::map<std::string, Preset> presets = {{"performance", Preset::performance},
+                                                   {"accuracy", Preset::accuracy}};
+    command.add_option("--preset", options.preset, "performance (also the default) or accuracy")
+        ->transform(CLI::CheckedTransformer(presets));
+    command.add_option("--threads", options.threads, "Threads of a step; default: all cores");
+    command.add_option("--steps-per-second", options.steps_per_second,
+                       "Time steps per simulated second; default: the preset's");
+    command.add_option("--set", options.fields, "Set a field of the settings; see 'cairn settings'. Repeatable")
+        ->type_name("FIELD=VALUE")
+        ->allow_extra_args(false);
+}
+
+SettingOverrides overridesFrom(const OverrideOptions& options, const Scene& scene) {
+    SettingOverrides overrides{options.preset, options.steps_per_second, {}};
+    const bool scene_decides = std::any_of(scene.settings.begin(), scene.settings.end(),
+                                           [](const auto& field) { return field.first == "threads"; });
+    if (options.threads || !scene_decides) {
+        overrides.fields.emplace_back("threads", fmt::format("{}", options.threads.value_or(allCores())));
+    }
+    for (const std::string& field : options.fields) overrides.fields.push_back(splitField(field));
+    return overrides;
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,28 @@
+/// @file Options that change a scene's settings, shared by the subcommands that simulate.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cairn/scene.h"
+
+namespace cairn::cli {
+
+/// What the command line changes.
+struct OverrideOptions {
+    std::optional<Preset> preset;
+    std::optional<std::int64_t> threads;
+    std::optional<double> steps_per_second;
+    std::vector<std::string> fields;
+};
+
+/// Adds --preset, --threads, --steps-per-second and --set. @param options must outlive the command
+void addOverrideOptions(CLI::App& command, OverrideOptions& options);
+
+/// The threads are all cores unless somebody asks for a number. @throws InputError
+SettingOverrides overridesFrom(const OverrideOptions& options, const Scene& scene);
+
+}  // namespace cairn::cli
