@@ -48,11 +48,13 @@ consteval std::array<std::uint32_t, 64> makeNeededBlocks() {
 
 inline constexpr std::array<std::uint32_t, 64> needed_blocks = makeNeededBlocks();
 
-/// Bits of the positions whose x (and y, z) lie in [low, high]; the limits may lie outside of 0 … 3.
+/// Coordinates of cells in a block, both limits included; they may lie outside of 0 … 3.
 struct PositionRange {
     std::int64_t low = 0;
     std::int64_t high = 0;
 };
+
+/// A bit for each position whose coordinates lie in the three ranges.
 constexpr std::uint64_t positionsIn(const PositionRange& x, const PositionRange& y, const PositionRange& z) {
     const auto contains = [](const PositionRange& range, std::int64_t i) { return range.low <= i && i <= range.high; };
     std::uint64_t row = 0;
