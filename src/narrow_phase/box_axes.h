@@ -29,10 +29,10 @@ struct FaceAxis {
 
 /// The best of the nine cross products of edges.
 struct EdgeAxis {
-    Eigen::Index edge_a = -1;  ///< −1: all edges are parallel
-    Eigen::Index edge_b = -1;
+    Eigen::Index edge_a = 0;
+    Eigen::Index edge_b = 0;
     Vec3 normal = Vec3::Zero();  ///< unit, from A to B [A]
-    double separation = 0;       ///< [m]
+    double separation = 0;       ///< [m]; −∞ if no two edges differ in direction
 };
 
 /// What the separating axis test found.

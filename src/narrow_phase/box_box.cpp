@@ -44,8 +44,8 @@ ConvexPolygon incidentFace(const BoxPair& pair, const Vec3& direction) {
     return polygon;
 }
 
-/// Contact with a face of A. @return false if no point of B's nearest face is above it within the margin
-bool faceContact(const BoxPair& pair, Eigen::Index axis, double sign, double margin, BoxContact& contact) {
+/// Contact with a face of A: none if no point of B's nearest face is above it within the margin.
+void faceContact(const BoxPair& pair, Eigen::Index axis, double sign, double margin, BoxContact& contact) {
     const Eigen::Index u = (axis + 1) % 3;
     const Eigen::Index v = (axis + 2) % 3;
     contact.normal = sign * Vec3::Unit(axis);
@@ -59,7 +59,6 @@ bool faceContact(const BoxPair& pair, Eigen::Index axis, double sign, double mar
         FacePoint& point = contact.points.points[i];
         point.point -= 0.5 * point.height * contact.normal;
     }
-    return contact.points.size > 0;
 }
 
 void setSingle(const Vec3& on_a, const Vec3& on_b, double distance, BoxContact& contact) {
@@ -151,7 +150,7 @@ Closest closestFeatures(const BoxPair& pair) {
 
 /// The direction of the best axis, in the frame of A, from A to B.
 Vec3 bestDirection(const BoxPair& pair, const BoxAxes& axes) {
-    if (axes.edge.edge_a >= 0 && axes.edge.separation > axes.face.separation) return axes.edge.normal;
+    if (axes.edge.separation > axes.face.separation) return axes.edge.normal;
     if (axes.face.owner == BoxOwner::a) return axes.face.sign * Vec3::Unit(axes.face.axis);
     return -axes.face.sign * pair.C.col(axes.face.axis);
 }
@@ -175,23 +174,36 @@ void cornerContact(const BoxPair& pair, const BoxAxes& axes, double margin, BoxC
     setSingle(deepest - separation * contact.normal, deepest, separation, contact);
 }
 
+/// Whether a face contact tells how far the boxes are apart. Where they are close beside the face instead, its points
+/// are too high.
+bool isNearest(const BoxPair& pair, const BoxAxes& axes, const FacePoints& points) {
+    const double separation = std::max(axes.face.separation, axes.edge.separation);
+    if (separation <= 0 && axes.edge.separation <= axes.face.separation) return points.size > 0;
+    const double limit = separation + faceAxisBonus(separation, pair.smallest());
+    for (std::size_t i = 0; i < points.size; ++i) {
+        if (points.points[i].height <= limit) return true;
+    }
+    return false;
+}
+
 /// @return whether the contact was found in the frame of A or of B
 BoxOwner findContact(const BoxPair& pair, const BoxAxes& axes, double margin, BoxContact& contact) {
     const FaceAxis& face = axes.face;
     const EdgeAxis& edge = axes.edge;
-    const bool has_edge = edge.edge_a >= 0;
     const Vec3 face_normal = face.owner == BoxOwner::a ? Vec3(Vec3::Unit(face.axis)) : Vec3(pair.C.col(face.axis));
-    const bool face_first = !has_edge ||
-                            edge.separation <= face.separation + faceAxisBonus(face.separation, pair.smallest()) ||
-                            std::abs(edge.normal.dot(face_normal)) > aligned_cosine;
-    if (face_first) {
-        const bool found = face.owner == BoxOwner::a
-                               ? faceContact(pair, face.axis, face.sign, margin, contact)
-                               : faceContact(reversed(pair), face.axis, face.sign, margin, contact);
-        if (found) return face.owner;
+    if (edge.separation <= face.separation + faceAxisBonus(face.separation, pair.smallest()) ||
+        std::abs(edge.normal.dot(face_normal)) > aligned_cosine) {
+        if (face.owner == BoxOwner::a) {
+            faceContact(pair, face.axis, face.sign, margin, contact);
+        } else {
+            faceContact(reversed(pair), face.axis, face.sign, margin, contact);
+        }
+        if (isNearest(pair, axes, contact.points)) return face.owner;
     }
     contact.points.size = 0;
-    if (!has_edge || !edgeContact(pair, edge, contact)) cornerContact(pair, axes, margin, contact);
+    if (edge.separation <= face.separation || !edgeContact(pair, edge, contact)) {
+        cornerContact(pair, axes, margin, contact);
+    }
     return BoxOwner::a;
 }
 

@@ -10,8 +10,14 @@ namespace cairn {
 
 namespace {
 
-/// Cosine of the largest angle between the direction of contact and a face that is taken for contact with the face.
-constexpr double face_cosine = 0.999;
+/// Sine of the largest angle between the axis and a face or edge on which a capsule can lie.
+constexpr double lying_sine = 0.1;
+
+/// Largest component across a face or edge of the direction of contact with it.
+constexpr double across_part = 0.05;
+
+/// How much farther apart than the closest points the nearer end of a lying capsule may be, as a part of its length.
+constexpr double lying_part = 1e-5;
 
 /// The axis of a capsule in the frame of a box.
 struct AxisInBox {
@@ -53,48 +59,87 @@ double closestToBox(const AxisInBox& in) {
     return lower + (upper - lower) * slope_lower / (slope_lower - slope_upper);
 }
 
-/// The ends of the part of the axis above a face of the box.
-void addFace(const AxisInBox& in, Eigen::Index face, double sign, Found& found) {
+/// A part of the axis, by its parameters.
+struct Part {
     double lower = -1;
     double upper = 1;
-    for (const Eigen::Index side : {(face + 1) % 3, (face + 2) % 3}) {
+
+    /// Cuts away what is not between two opposite faces of the box.
+    void cut(const AxisInBox& in, Eigen::Index side) {
         const double centre = in.axis.centre[side];
         const double half = in.axis.half[side];
-        if (std::abs(half) <= tiny_length) continue;  // the axis stays on one side
+        if (std::abs(half) <= tiny_length) {
+            if (std::abs(centre) > in.half[side]) upper = lower;  // all of it is on one side
+            return;
+        }
         const double to_lower = (-in.half[side] - centre) / half;
         const double to_upper = (in.half[side] - centre) / half;
         lower = std::max(lower, std::min(to_lower, to_upper));
         upper = std::min(upper, std::max(to_lower, to_upper));
     }
-    if (!(lower <= upper)) return;
-    const double edge = std::min({in.half[(face + 1) % 3], in.half[(face + 2) % 3], in.axis.half.norm()});
-    found.normal = sign * Vec3::Unit(face);
-    FacePoints ends;
-    const FaceCollector collector{{found.normal, in.half[face] + in.radius}, in.margin, 2 * merge_part * edge};
-    collector.add(in.axis.at(lower), ends);
-    collector.add(in.axis.at(upper), ends);
-    for (std::size_t i = 0; i < ends.size; ++i) {
-        const FacePoint& end = ends.points[i];
-        ends.points[i].point -= (in.radius + 0.5 * end.height) * found.normal;
-    }
-    found.points = ends;
-}
+};
 
 void setSingle(const Vec3& on_box, double distance, Found& found) {
     found.points.size = 1;
     found.points.points[0] = {on_box + 0.5 * distance * found.normal, distance};
 }
 
+/// A capsule that lies on a face or along an edge touches at both ends of the part beside it, if both ends are within
+/// the margin. No end can be nearer, along the direction of contact, than the closest points. @return whether it lies
+bool addLying(const AxisInBox& in, double closest, Found& found) {
+    const double length = in.axis.half.norm();
+    if (std::abs(in.axis.half.dot(found.normal)) > lying_sine * length) return false;
+    Part part;
+    int sides = 0;
+    Eigen::Index along = 0;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+        if (std::abs(found.normal[i]) > across_part) continue;
+        part.cut(in, i);
+        along = i;
+        ++sides;
+    }
+    const double straight = (1 - lying_sine * lying_sine) * length * length;
+    if (sides == 0 || (sides == 1 && in.axis.half[along] * in.axis.half[along] < straight)) return false;
+    if ((part.upper - part.lower) * length <= 2 * merge_part * std::min(length, in.half[along])) return false;
+    const double limit = in.radius + in.margin;
+    double nearest = limit;
+    found.points.size = 0;
+    for (const double end : {part.lower, part.upper}) {
+        const Vec3 on_axis = in.axis.at(end);
+        const Vec3 on_box = on_axis.cwiseMax(-in.half).cwiseMin(in.half);
+        if (!((on_axis - on_box).squaredNorm() <= limit * limit)) return false;
+        const double distance = (on_axis - on_box).dot(found.normal) - in.radius;
+        nearest = std::min(nearest, distance);
+        found.points.points[found.points.size++] = {0.5 * (on_axis + on_box - in.radius * found.normal), distance};
+    }
+    return nearest <= closest + lying_part * (in.radius + length);
+}
+
 /// The axis passes outside the box.
 void addOutside(const AxisInBox& in, const Vec3& on_box, const Vec3& outward, double outside, Found& found) {
-    const Vec3 normal = outward / outside;
-    Eigen::Index face = 0;
-    if (normal.cwiseAbs().maxCoeff(&face) > face_cosine) {
-        addFace(in, face, normal[face] < 0 ? -1 : 1, found);
-        if (found.points.size == 2) return;
+    found.normal = outward / outside;
+    const double distance = outside - in.radius;
+    if (!addLying(in, distance, found)) setSingle(on_box, distance, found);
+}
+
+/// The ends of the part of the axis between the sides of a face of the box.
+void addFace(const AxisInBox& in, Eigen::Index face, double sign, Found& found) {
+    const Eigen::Index u = (face + 1) % 3;
+    const Eigen::Index v = (face + 2) % 3;
+    Part part;
+    part.cut(in, u);
+    part.cut(in, v);
+    found.normal = sign * Vec3::Unit(face);
+    found.points.size = 0;
+    if (!(part.lower < part.upper)) return;
+    const double edge = std::min({in.half[u], in.half[v], in.axis.half.norm()});
+    const FaceCollector collector{{found.normal, in.half[face] + in.radius}, in.margin, 2 * merge_part * edge};
+    collector.add(in.axis.at(part.lower), found.points);
+    collector.add(in.axis.at(part.upper), found.points);
+    for (std::size_t i = 0; i < found.points.size; ++i) {
+        FacePoint& end = found.points.points[i];
+        end.point -= (in.radius + 0.5 * end.height) * found.normal;
     }
-    found.normal = normal;
-    setSingle(on_box, outside - in.radius, found);
 }
 
 /// The axis enters the box: out along the axis of least overlap, of the faces or of an edge and the capsule's axis.

@@ -63,10 +63,29 @@ void FaceCollector::add(const Vec3& point, FacePoints& points) const {
     points.points[points.size++] = {point, height};
 }
 
+void simplify(ConvexPolygon& polygon, const Plane& face, double tolerance) {
+    for (std::size_t i = 0; i < polygon.size && polygon.size > 2;) {
+        const Vec3& before = polygon.corners[i > 0 ? i - 1 : polygon.size - 1];
+        const Vec3& corner = polygon.corners[i];
+        const Vec3& after = polygon.corners[i + 1 < polygon.size ? i + 1 : 0];
+        const Segment chord{0.5 * (before + after), 0.5 * (after - before)};
+        const double beside = (corner - chord.at(closestOnSegment(chord, corner))).squaredNorm();
+        const double lower = std::min(face.height(before), face.height(after)) - face.height(corner);
+        if (beside > tolerance * tolerance || lower > 1e-3 * tolerance) {
+            ++i;
+            continue;
+        }
+        std::copy(polygon.corners.begin() + i + 1, polygon.corners.begin() + polygon.size, polygon.corners.begin() + i);
+        --polygon.size;
+    }
+}
+
 void collectFaceContact(const FaceCollector& collector, std::span<const Plane> sides, ConvexPolygon& incident,
                         FacePoints& points) {
-    const double slack = 1e-3 * collector.merge_distance;
+    const double slack = 1e-6 * collector.merge_distance;
+    const std::size_t corners = incident.size;
     for (const Plane& side : sides) clip(incident, side, slack);
+    if (incident.size > corners) simplify(incident, collector.face, collector.merge_distance);
     for (std::size_t i = 0; i < incident.size; ++i) collector.add(incident.corners[i], points);
 }
 

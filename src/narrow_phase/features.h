@@ -55,6 +55,12 @@ struct ConvexPolygon {
 /// plane must not be split in two by rounding
 void clip(ConvexPolygon& polygon, const Plane& plane, double slack);
 
+/// Removes corners that stand out from the line between their neighbours by no more than a tolerance [m], unless they
+/// are the lowest there: where the edges of two faces are nearly parallel they cross anywhere, and a corner in the
+/// middle of a straight edge holds nothing.
+/// @param face from which heights are measured
+void simplify(ConvexPolygon& polygon, const Plane& face, double tolerance);
+
 /// A point of one shape below or slightly above a face of another.
 struct FacePoint {
     Vec3 point;     ///< on the incident shape [m]
