@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cairn/events.h"
 #include "cairn/material.h"
 #include "cairn/settings.h"
 #include "cairn/shape.h"
@@ -152,10 +153,16 @@ class World {
     std::vector<BatchInfo> batches() const;        ///< of the last step, by their lowest body
     const Statistics& statistics() const;          ///< of the last step
     const std::vector<FaultInfo>& faults() const;  ///< all so far
-    double kineticEnergy() const;                  ///< [J]
-    double potentialEnergy() const;                ///< [J], in the sum of the global accelerations, zero at the origin
-    Vec3 linearMomentum() const;                   ///< of all dynamic bodies [N·s, W]
-    Vec3 angularMomentum() const;                  ///< of all dynamic bodies about the origin [N·m·s, W]
+    /// Which events the following steps collect; none at first.
+    void setEventLevel(EventLevel level);
+    EventLevel eventLevel() const;
+    /// What happened in the last step, in an order that does not depend on threads: contacts by (a, b), then bodies
+    /// that woke and fell asleep, by id, then faults as in faults(). Valid until the next step.
+    std::span<const Event> events() const;
+    double kineticEnergy() const;    ///< [J]
+    double potentialEnergy() const;  ///< [J], in the sum of the global accelerations, zero at the origin
+    Vec3 linearMomentum() const;     ///< of all dynamic bodies [N·s, W]
+    Vec3 angularMomentum() const;    ///< of all dynamic bodies about the origin [N·m·s, W]
     /// A hash of the poses, velocities and sleeping states of all bodies; equal states have equal hashes.
     std::uint64_t stateHash() const;
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cairn/events.h"
 #include "cairn/shape.h"
 #include "cairn/types.h"
 
@@ -17,17 +18,6 @@ using BodyIndex = std::uint32_t;
 
 /// What a slot holds.
 enum class BodyKind : std::uint8_t { hole, fixed, dynamic };
-
-/// Why a body woke. The first six are the wake conditions of thesis §3.2.
-enum class WakeReason : std::uint8_t {
-    none,
-    changed,            ///< 1 its state or a force on it was changed
-    displaced,          ///< 2 the penetration correction moved it
-    struck,             ///< 3 a contact of it was resolved
-    neighbour_removed,  ///< 4 a body it touched was removed
-    support_lost,       ///< 5 fewer contacts in the direction of gravity than in the last step
-    floating,           ///< 6 no contact in the direction of gravity
-};
 
 /// The state of bodies that the response reads and writes; knows nothing of shapes. All spans have one entry per slot.
 struct BodyState {

@@ -3,6 +3,7 @@
 #include "integration/integration.h"
 #include "sleeping/sleeping.h"
 #include "world/detection.h"
+#include "world/events.h"
 #include "world/quarantine.h"
 #include "world/world_state.h"
 
@@ -101,6 +102,7 @@ void sleepStage(WorldState& world) {
 
 void outputStage(WorldState& world) {
     world.data.generation = world.bodies.generation;
+    collectEvents(world);
     summarize(world);
 }
 
@@ -110,7 +112,12 @@ void stepWorld(WorldState& world) {
     ++world.steps;
     world.statistics = {};
     Statistics& statistics = world.statistics;
-    timed(statistics, Stage::events, [&] { wakeSpringEnds(world.springs, world.bodies); });
+    timed(statistics, Stage::events, [&] {
+        beginEvents(world);
+        // What user code did between the steps may have overflowed.
+        quarantine(world);
+        wakeSpringEnds(world.springs, world.bodies);
+    });
     timed(statistics, Stage::positions, [&] {
         advancePositions(world.bodies, world.settings.integration, world.settings.timeStep(), world.executor);
     });

@@ -93,6 +93,18 @@ const std::vector<FaultInfo>& World::faults() const {
     return state_->faults;
 }
 
+void World::setEventLevel(EventLevel level) {
+    state_->events.level = level;
+}
+
+EventLevel World::eventLevel() const {
+    return state_->events.level;
+}
+
+std::span<const Event> World::events() const {
+    return state_->events.events;
+}
+
 double World::kineticEnergy() const {
     const BodyStorage& b = state_->bodies;
     double energy = 0;

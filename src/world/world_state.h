@@ -36,6 +36,22 @@ struct StepData {
     std::vector<std::uint32_t> generation;  ///< output: [slots] generations of the bodies that the contacts name
 };
 
+/// Two bodies that touched in the last step.
+struct TouchingPair {
+    BodyId a, b;
+
+    friend bool operator==(const TouchingPair&, const TouchingPair&) = default;
+};
+
+/// The events of the last step and what finding them takes.
+struct EventLog {
+    EventLevel level = EventLevel::none;
+    std::vector<Event> events;
+    std::vector<TouchingPair> touching_before;  ///< sorted, at the beginning of the step
+    std::vector<std::uint8_t> asleep_before;    ///< [slots] at the beginning of the step
+    std::size_t faults_before = 0;              ///< at the beginning of the step
+};
+
 /// The back of World.
 struct WorldState {
     explicit WorldState(const Settings& settings);
@@ -65,6 +81,7 @@ struct WorldState {
     StepData data;
     Statistics statistics;
     std::vector<FaultInfo> faults;
+    EventLog events;
 };
 
 /// One time step. @source thesis Algorithm 6
