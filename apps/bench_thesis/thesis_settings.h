@@ -1,0 +1,21 @@
+/// @file The thesis's own settings, whatever Cairn's presets have become since.
+#pragma once
+
+#include <cstdint>
+
+#include "cairn/settings.h"
+
+namespace cairn::thesis {
+
+/// What an experiment changes of the thesis's settings.
+enum class Variant {
+    plain,       ///< nothing
+    undamped,    ///< §5.3: gravity damping off
+    greedy,      ///< §5.4: unlimited iterations, no shock propagation, highest closing speed first
+    first_entry  ///< §5.4: the same with the first entry of the list
+};
+
+/// The settings of the benchmarks. @param threads ≥ 1 @source thesis §5.1, §5.3, §5.4, §5.5
+Settings thesisSettings(Preset preset, std::int64_t threads, Variant variant = Variant::plain);
+
+}  // namespace cairn::thesis
