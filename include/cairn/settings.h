@@ -21,7 +21,9 @@ enum class BroadPhaseKind { hash_grids, all_pairs };
 /// Which penetration correction runs. @source thesis §2
 enum class CorrectionKind { propagated, none };
 /// Which contact resolution runs; impulse_queue is the thesis's. @source thesis §3
-enum class ResolutionKind { impulse_queue, sweep, none };
+/// How closing contacts are resolved: the thesis's queue, a plain sweep as an independent second one, sweeps with warm
+/// starting accelerated by conjugate gradients, or not at all.
+enum class ResolutionKind { impulse_queue, sweep, accelerated_sweeps, none };
 /// Which closing contact is resolved next. @source thesis §3.6 and §5.4
 enum class ResolutionOrder { highest_closing_speed, arbitrary };
 
@@ -48,6 +50,7 @@ struct ResolutionSettings {
     bool shock_propagation = true;   ///< Algorithm 10, when the limit was reached with contacts still closing
     double shock_iterations = 6;     ///< the same limit for each stage of the shock propagation; 0 = unlimited
     std::int64_t queue_switch = 64;  ///< batches with more contacts use the ordered queue (§3.8)
+    std::int64_t sweep_limit = 10;   ///< most sweeps (forth and back) of accelerated_sweeps, ≥ 1
     std::int64_t sweeps = 50;        ///< sweeps over the contacts of ResolutionKind::sweep, ≥ 1
 };
 

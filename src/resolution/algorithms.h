@@ -10,4 +10,6 @@ namespace cairn {
 std::unique_ptr<Resolution> makeImpulseQueueResolution();  ///< in impulse_queue.cpp
 std::unique_ptr<Resolution> makeSweepResolution();         ///< in sweep.cpp
 
+std::unique_ptr<Resolution> makeAcceleratedSweepsResolution();  ///< in accelerated_sweeps.cpp
+
 }  // namespace cairn

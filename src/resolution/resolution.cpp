@@ -23,6 +23,8 @@ std::unique_ptr<Resolution> makeResolution(ResolutionKind kind) {
             return makeImpulseQueueResolution();
         case ResolutionKind::sweep:
             return makeSweepResolution();
+        case ResolutionKind::accelerated_sweeps:
+            return makeAcceleratedSweepsResolution();
         case ResolutionKind::none:
             break;
     }

@@ -20,7 +20,7 @@ constexpr double most_steps_per_second = 1e6;
 
 constexpr std::array<std::string_view, 2> broad_phase_names = {"hash_grids", "all_pairs"};
 constexpr std::array<std::string_view, 2> correction_names = {"propagated", "none"};
-constexpr std::array<std::string_view, 3> resolution_names = {"impulse_queue", "sweep", "none"};
+constexpr std::array<std::string_view, 4> resolution_names = {"impulse_queue", "sweep", "accelerated_sweeps", "none"};
 constexpr std::array<std::string_view, 2> order_names = {"highest_closing_speed", "arbitrary"};
 
 template <auto Stage, auto Member>
@@ -115,6 +115,8 @@ const std::vector<SettingField>& fields() {
             "limit of each shock stage as a multiple of its contacts; 0 = unlimited"),
         plain<&S::resolution, &R::queue_switch>("queue_switch", "resolution", "contacts", 0, 1e9,
                                                 "batches with more contacts use the ordered queue (3.8)"),
+        plain<&S::resolution, &R::sweep_limit>("sweep_limit", "resolution", "", 1, 1e6,
+                                               "most sweeps, forth and back, of the resolution 'accelerated_sweeps'"),
         plain<&S::resolution, &R::sweeps>("sweeps", "resolution", "", 1, 1e6,
                                           "sweeps over the contacts of the resolution 'sweep'"),
         plain<&S::sleep, &L::sleeping>("sleeping", "sleep", "", 0, 1, "bodies at rest fall asleep"),

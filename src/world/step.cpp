@@ -2,6 +2,7 @@
 
 #include "integration/integration.h"
 #include "sleeping/sleeping.h"
+#include "world/checks.h"
 #include "world/detection.h"
 #include "world/events.h"
 #include "world/quarantine.h"
@@ -79,6 +80,8 @@ void velocityStage(WorldState& world) {
 void resolveStage(WorldState& world) {
     StepData& data = world.data;
     const BodyState bodies = world.bodies.state();
+    const bool remembers = world.settings.resolution.resolution == ResolutionKind::accelerated_sweeps;
+    if (remembers) world.memory.recall(world.bodies, data.contacts, world.executor);
     data.resolution_counts.assign(world.resolutions.size(), {});
     forBatches(data, world.executor, [&](std::uint32_t batch, int thread) {
         const auto t = static_cast<std::size_t>(thread);
@@ -88,6 +91,7 @@ void resolveStage(WorldState& world) {
         data.resolution_counts[t].shock_iterations += counts.shock_iterations;
         data.resolution_counts[t].shock_batches += counts.shock_batches;
     });
+    if (remembers) world.memory.store(world.bodies, data.contacts, world.executor);
     quarantine(world);
 }
 
@@ -112,6 +116,7 @@ void stepWorld(WorldState& world) {
     ++world.steps;
     world.statistics = {};
     Statistics& statistics = world.statistics;
+    const bool checked = world.checks == Checks::on;
     timed(statistics, Stage::events, [&] {
         beginEvents(world);
         // What user code did between the steps may have overflowed.
@@ -126,11 +131,15 @@ void stepWorld(WorldState& world) {
                        world.executor, world.data);
     });
     timed(statistics, Stage::batches, [&] { buildBatchesStage(world); });
+    if (checked) checkBatches(world);
     timed(statistics, Stage::correction, [&] { correctStage(world); });
     timed(statistics, Stage::velocities, [&] { velocityStage(world); });
+    const double energy = checked ? kineticEnergyOf(world.bodies) : 0;
     timed(statistics, Stage::resolution, [&] { resolveStage(world); });
+    if (checked) checkEnergy(world, energy);
     timed(statistics, Stage::sleeping, [&] { sleepStage(world); });
     timed(statistics, Stage::output, [&] { outputStage(world); });
+    if (checked) checkState(world);
     // A quotient, not a sum: after a million steps the time is still exact to one rounding.
     const auto since = static_cast<double>(world.steps - world.steps_at_start);
     world.time = world.time_at_start + since / world.settings.steps_per_second;

@@ -122,6 +122,7 @@ void World::removeBody(BodyId id) {
         spring.present = false;
         ++spring.generation;
     }
+    w.memory.forget(i);
     w.bodies.release(i);
 }
 

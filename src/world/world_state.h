@@ -15,6 +15,7 @@
 #include "geometry/geometry.h"
 #include "integration/springs.h"
 #include "parallel/executor.h"
+#include "persistence/contact_memory.h"
 #include "resolution/resolution.h"
 
 namespace cairn {
@@ -65,6 +66,7 @@ struct WorldState {
     Settings settings;
     Executor executor;
     std::unique_ptr<BroadPhase> broad_phase;
+    ContactMemory memory;  ///< of the last step's contacts, for resolutions that begin where they ended
     std::vector<std::unique_ptr<Correction>> corrections;  ///< [threads]
     std::vector<std::unique_ptr<Resolution>> resolutions;  ///< [threads]
 
@@ -82,6 +84,7 @@ struct WorldState {
     Statistics statistics;
     std::vector<FaultInfo> faults;
     EventLog events;
+    Checks checks = Checks::off;
 };
 
 /// One time step. @source thesis Algorithm 6

@@ -1,0 +1,90 @@
+#include "persistence/contact_memory.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace cairn {
+
+namespace {
+
+/// Contacts farther from each other than this part of the smaller body are not the same one.
+constexpr double same_place = 0.1;
+
+Vec3 placeOn(const BodyStorage& bodies, BodyIndex i, const Vec3& point) {
+    return bodies.orientation[i].conjugate() * (point - bodies.position[i]);
+}
+
+bool isSamePair(const Contact& x, const Contact& y) {
+    return x.a == y.a && x.b == y.b;
+}
+
+bool before(BodyIndex a, BodyIndex b, BodyIndex c, BodyIndex d) {
+    return std::tie(a, b) < std::tie(c, d);
+}
+
+}  // namespace
+
+std::span<const ContactMemory::Entry> ContactMemory::entriesOf(BodyIndex a, BodyIndex b, std::size_t& cursor) const {
+    while (cursor < entries_.size() && before(entries_[cursor].a, entries_[cursor].b, a, b)) ++cursor;
+    std::size_t end = cursor;
+    while (end < entries_.size() && entries_[end].a == a && entries_[end].b == b) ++end;
+    return std::span(entries_).subspan(cursor, end - cursor);
+}
+
+void ContactMemory::recallPair(const BodyStorage& bodies, std::span<Contact> contacts,
+                               std::span<const Entry> remembered) {
+    for (Contact& contact : contacts) contact.last_impulse.setZero();
+    const Contact& first = contacts.front();
+    const double reach = same_place * std::min(bodies.r_max[first.a], bodies.r_max[first.b]);
+    // Every remembered impulse goes to one contact as a whole: where points of a manifold merge or split, the pair
+    // still gets the same push in total.
+    for (const Entry& entry : remembered) {
+        const Vec3 on_a = bodies.position[entry.a] + bodies.orientation[entry.a] * entry.place_a;
+        const Vec3 on_b = bodies.position[entry.b] + bodies.orientation[entry.b] * entry.place_b;
+        double nearest = reach * reach;
+        Contact* heir = nullptr;
+        for (Contact& contact : contacts) {
+            const double distance =
+                std::min((contact.point - on_a).squaredNorm(), (contact.point - on_b).squaredNorm());
+            if (!(distance < nearest)) continue;
+            nearest = distance;
+            heir = &contact;
+        }
+        if (heir != nullptr) heir->last_impulse += entry.impulse;
+    }
+}
+
+void ContactMemory::recall(const BodyStorage& bodies, std::span<Contact> contacts, const Executor& executor) const {
+    executor.forBlocks(contacts.size(), [&](std::size_t begin, std::size_t end, int) {
+        // The pair that a block's border cuts belongs to the block in which it begins.
+        while (begin > 0 && begin < end && isSamePair(contacts[begin - 1], contacts[begin])) ++begin;
+        if (begin == end) return;
+        const auto start = std::ranges::partition_point(
+            entries_, [&](const Entry& e) { return before(e.a, e.b, contacts[begin].a, contacts[begin].b); });
+        auto cursor = static_cast<std::size_t>(start - entries_.begin());
+        while (begin < end) {
+            std::size_t last = begin + 1;
+            while (last < contacts.size() && isSamePair(contacts[begin], contacts[last])) ++last;
+            const auto candidates = entriesOf(contacts[begin].a, contacts[begin].b, cursor);
+            recallPair(bodies, contacts.subspan(begin, last - begin), candidates);
+            begin = last;
+        }
+    });
+}
+
+void ContactMemory::store(const BodyStorage& bodies, std::span<const Contact> contacts, const Executor& executor) {
+    entries_.resize(contacts.size());
+    executor.forBlocks(contacts.size(), [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Contact& contact = contacts[i];
+            entries_[i] = {contact.a, contact.b, placeOn(bodies, contact.a, contact.point),
+                           placeOn(bodies, contact.b, contact.point), contact.impulse};
+        }
+    });
+}
+
+void ContactMemory::forget(BodyIndex body) {
+    std::erase_if(entries_, [&](const Entry& entry) { return entry.a == body || entry.b == body; });
+}
+
+}  // namespace cairn

@@ -1,0 +1,41 @@
+/// @file Carries the impulses of contacts from one step to the next, so that a resolution can begin where the last one
+/// ended (warm starting).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "body/body_storage.h"
+#include "body/contact.h"
+#include "parallel/executor.h"
+
+namespace cairn {
+
+/// Remembers where contacts were on their two bodies and which impulse they ended with. Contacts are recognised by
+/// their place on either body, which survives a change of the reference face better than feature numbers do.
+class ContactMemory {
+  public:
+    /// Gives every contact the impulse that the nearest remembered contact of its pair ended with, or zero.
+    /// @param contacts sorted by (a, b)
+    void recall(const BodyStorage& bodies, std::span<Contact> contacts, const Executor& executor) const;
+    /// Replaces the memory. @param contacts sorted by (a, b), with the impulses they ended with
+    void store(const BodyStorage& bodies, std::span<const Contact> contacts, const Executor& executor);
+    /// Forgets the contacts of a slot, whose body is removed.
+    void forget(BodyIndex body);
+    void clear() { entries_.clear(); }
+
+  private:
+    struct Entry {
+        BodyIndex a, b;
+        Vec3 place_a;  ///< [m, frame of A]
+        Vec3 place_b;  ///< [m, frame of B]
+        Vec3 impulse;  ///< on A [N·s, W]
+    };
+
+    static void recallPair(const BodyStorage& bodies, std::span<Contact> contacts, std::span<const Entry> candidates);
+    std::span<const Entry> entriesOf(BodyIndex a, BodyIndex b, std::size_t& cursor) const;
+
+    std::vector<Entry> entries_;  ///< sorted by (a, b)
+};
+
+}  // namespace cairn
