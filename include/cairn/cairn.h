@@ -1,6 +1,8 @@
 /// @file Everything of the public interface.
 #pragma once
 
+#include "cairn/checkpoint.h"
+#include "cairn/events.h"
 #include "cairn/material.h"
 #include "cairn/recording.h"
 #include "cairn/scene.h"

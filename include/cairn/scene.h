@@ -1,10 +1,12 @@
 /// @file Scenes: initial states with materials, events and settings; read from and written to JSON, or built in.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -134,6 +136,8 @@ class SceneRun {
     World& world() { return world_; }              ///< may be changed between steps
     const World& world() const { return world_; }  ///< as it is after the last step
     const Scene& scene() const { return scene_; }  ///< as it was given
+    /// Changes when the run is over. @param seconds [s], > 0
+    void setDuration(double seconds) { scene_.duration = seconds; }
     /// Ids of the scene's bodies, by index; stale once removed.
     const std::vector<BodyId>& ids() const { return ids_; }
 
@@ -144,7 +148,14 @@ class SceneRun {
     /// Time steps of one simulation step.
     int stepsPerSimulationStep() const;
 
+    /// The run as it is: scene, world, ids and the events that are still to come. @source docs/snapshots.md
+    std::vector<std::byte> save() const;
+    /// A run as it was saved. @param source shown in messages, such as the name of its file
+    /// @throws InputError with the offset, for bytes that are truncated, damaged or too new
+    static SceneRun restore(std::span<const std::byte> snapshot, std::string_view source = "snapshot");
+
   private:
+    SceneRun(Scene scene, World world, std::vector<BodyId> ids, std::size_t next_event);
     void apply(const EventAction& action);
 
     Scene scene_;

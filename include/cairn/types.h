@@ -59,6 +59,12 @@ class StaleIdError : public InputError {
     using InputError::InputError;
 };
 
+/// A mistake of Cairn itself, found by the checks of World::setChecks(); the text names step, body and what is wrong.
+class InvariantError : public std::logic_error {
+  public:
+    using std::logic_error::logic_error;
+};
+
 /// Something outside the program failed: a file cannot be read or written, a disk is full.
 class IoError : public std::runtime_error {
   public:

@@ -1,6 +1,7 @@
 /// @file The world: bodies, materials, springs and the time step. Right-handed, SI units, world frame W unless named.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
@@ -62,6 +63,9 @@ struct FaultInfo {
     std::int64_t step = 0;  ///< number of the time step, from 1
     std::string what;
 };
+
+/// Whether a step checks itself; switched off it costs nothing.
+enum class Checks : std::uint8_t { off, on };
 
 struct WorldState;
 
@@ -140,13 +144,27 @@ class World {
     Vec3 globalAcceleration() const;
 
     // --- time ---
-    /// One time step. @source thesis Algorithm 6
+    /// One time step. @source thesis Algorithm 6 @throws InvariantError with setChecks(Checks::on)
     void step();
     double time() const;             ///< simulated time [s]
     std::int64_t stepCount() const;  ///< time steps done
     const Settings& settings() const;
     /// Takes effect at the next step. @throws InputError as the constructor
     void setSettings(const Settings& settings);
+
+    /// From now on every step checks: finite state, unit quaternions, inertias, contacts, batches, energy. Costs about
+    /// a tenth of a step. After an InvariantError the world must not be used any more.
+    void setChecks(Checks checks);
+
+    // --- snapshots ---
+    /// Everything that the world is, so that it goes on bit by bit as it would have. @source docs/snapshots.md
+    std::vector<std::byte> save() const;
+    /// As save(), into a buffer whose memory is used again: what a rollback does in every step.
+    void saveTo(std::vector<std::byte>& buffer) const;
+    /// A world as it was saved. @throws InputError with the offset, for bytes that are truncated, damaged or too new
+    static World restore(std::span<const std::byte> snapshot);
+    /// Becomes what was saved; ids of that time are valid again. Unchanged if it throws. @throws as restore()
+    void load(std::span<const std::byte> snapshot);
 
     // --- after a step ---
     std::vector<ContactInfo> contacts() const;     ///< of the last step, by (a, b)
@@ -167,6 +185,8 @@ class World {
     std::uint64_t stateHash() const;
 
   private:
+    explicit World(std::unique_ptr<WorldState> state);
+
     std::unique_ptr<WorldState> state_;
 };
 

@@ -76,6 +76,15 @@ void BodyStorage::release(BodyIndex i) {
     --count_;
 }
 
+void BodyStorage::adoptSlots() {
+    holes_.clear();
+    for (BodyIndex i = 0; i < slots(); ++i) {
+        // Ascending order is a min-heap.
+        if (kind[i] == BodyKind::hole) holes_.push_back(i);
+    }
+    count_ = slots() - holes_.size();
+}
+
 void BodyStorage::updateMassProperties(BodyIndex i) {
     if (kind[i] == BodyKind::dynamic) {
         mass_inv[i] = 1 / mass[i];

@@ -80,6 +80,8 @@ class BodyStorage {
     /// Takes the lowest hole or appends a slot, every entry reset. The caller fills it.
     BodyIndex allocate(BodyKind new_kind);
     void release(BodyIndex i);
+    /// Finds the holes and the count anew. @pre every array has one entry per slot; call it after replacing them
+    void adoptSlots();
     /// Sets the inverse mass properties from mass, inertia_B, kind and orientation.
     void updateMassProperties(BodyIndex i);
     BodyState state();

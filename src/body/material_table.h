@@ -27,6 +27,13 @@ class MaterialTable {
         return entry.own ? entry.properties : default_;
     }
 
+    const PairProperties& defaultPair() const { return default_; }
+    /// The properties that the pair has of its own, or none. @pre both indices are valid
+    const PairProperties* ownPair(std::uint32_t a, std::uint32_t b) const {
+        const Entry& entry = pairs_[a * materials_.size() + b];
+        return entry.own ? &entry.properties : nullptr;
+    }
+
   private:
     struct Entry {
         bool own = false;

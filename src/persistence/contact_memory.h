@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "body/body_storage.h"
@@ -24,14 +25,18 @@ class ContactMemory {
     void forget(BodyIndex body);
     void clear() { entries_.clear(); }
 
-  private:
+    /// A contact of the last step.
     struct Entry {
         BodyIndex a, b;
         Vec3 place_a;  ///< [m, frame of A]
         Vec3 place_b;  ///< [m, frame of B]
         Vec3 impulse;  ///< on A [N·s, W]
     };
+    std::span<const Entry> entries() const { return entries_; }
+    /// Takes over a memory that was saved. @param entries sorted by (a, b)
+    void restore(std::vector<Entry> entries) { entries_ = std::move(entries); }
 
+  private:
     static void recallPair(const BodyStorage& bodies, std::span<Contact> contacts, std::span<const Entry> candidates);
     std::span<const Entry> entriesOf(BodyIndex a, BodyIndex b, std::size_t& cursor) const;
 

@@ -99,6 +99,10 @@ void World::step() {
     stepWorld(*state_);
 }
 
+void World::setChecks(Checks checks) {
+    state_->checks = checks;
+}
+
 double World::time() const {
     return state_->time;
 }

@@ -1,0 +1,157 @@
+#include "world/byte_stream.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+
+namespace cairn {
+
+namespace {
+
+constexpr std::array<char, 8> magic = {'C', 'A', 'I', 'R', 'N', 'S', 'N', 'P'};
+/// Bytes that share one checksum: small enough that an offset helps, large enough that checksums do not count.
+constexpr std::size_t block_size = std::size_t{64} * 1024;
+
+/// The first bytes of a frame; behind the content stands one checksum per block of it.
+struct Head {
+    std::array<char, 8> magic;
+    std::uint32_t kind;
+    std::uint32_t version;
+    std::uint64_t content;  ///< bytes of the content
+    std::uint64_t check;    ///< of the four above
+};
+static_assert(sizeof(Head) == 32);
+
+std::uint64_t mixed(std::uint64_t x) {
+    x = (x ^ (x >> 32U)) * 0xd6e8feb86659fd93U;
+    return x ^ (x >> 32U);
+}
+
+/// Four sums side by side, so that the processor need not wait for one multiplication before the next.
+std::uint64_t checksum(std::span<const std::byte> bytes) {
+    constexpr std::size_t lanes = 4;
+    constexpr std::size_t stride = lanes * sizeof(std::uint64_t);
+    std::array<std::uint64_t, lanes> sums = {1, 2, 3, 4};
+    std::size_t at = 0;
+    for (; at + stride <= bytes.size(); at += stride) {
+        std::array<std::uint64_t, lanes> words{};
+        std::memcpy(words.data(), bytes.data() + at, stride);
+        for (std::size_t i = 0; i < lanes; ++i) {
+            sums[i] = std::rotl((sums[i] ^ words[i]) * 0x9e3779b97f4a7c15U, 29);
+        }
+    }
+    std::uint64_t sum = bytes.size();
+    for (; at < bytes.size(); ++at) sum = mixed(sum ^ std::to_integer<std::uint64_t>(bytes[at]));
+    for (const std::uint64_t lane : sums) sum = mixed(sum ^ lane);
+    return sum;
+}
+
+std::uint64_t headCheck(const Head& head) {
+    return checksum(std::as_bytes(std::span(&head, 1)).first(offsetof(Head, check)));
+}
+
+std::size_t blocksOf(std::uint64_t content) {
+    return static_cast<std::size_t>((content + block_size - 1) / block_size);
+}
+
+}  // namespace
+
+std::size_t frameHeadSize() {
+    return sizeof(Head);
+}
+
+void sealFrame(std::span<std::byte> frame, FrameKind kind, std::uint32_t version) {
+    // Content c has ceil(c / block) checksums behind it; solved for c from the whole length.
+    const std::size_t behind = frame.size() - sizeof(Head);
+    const std::size_t blocks = (behind + block_size + sizeof(std::uint64_t) - 1) / (block_size + sizeof(std::uint64_t));
+    const std::size_t content = behind - blocks * sizeof(std::uint64_t);
+    Head head{magic, static_cast<std::uint32_t>(kind), version, content, 0};
+    head.check = headCheck(head);
+    std::memcpy(frame.data(), &head, sizeof head);
+    for (std::size_t i = 0; i < blocks; ++i) {
+        const std::size_t begin = i * block_size;
+        const std::uint64_t sum = checksum(frame.subspan(sizeof(Head) + begin, std::min(block_size, content - begin)));
+        std::memcpy(frame.data() + sizeof(Head) + content + i * sizeof sum, &sum, sizeof sum);
+    }
+}
+
+ByteWriter::ByteWriter(std::vector<std::byte>& buffer, FrameKind kind)
+    : buffer_(buffer), kind_(kind), end_(sizeof(Head)) {}
+
+void ByteWriter::enlarge() {
+    buffer_.resize(std::max(end_, 2 * buffer_.size()));
+}
+
+void ByteWriter::finish() {
+    const std::size_t content = end_ - sizeof(Head);
+    grow(blocksOf(content) * sizeof(std::uint64_t));
+    buffer_.resize(end_);
+    sealFrame(buffer_, kind_, snapshot_version);
+}
+
+ByteReader::ByteReader(std::span<const std::byte> bytes, FrameKind kind, std::string source)
+    : source_(std::move(source)) {
+    Head head{};
+    if (bytes.size() < sizeof head) {
+        throw InputError(
+            fmt::format("{} is truncated at byte {}: its head alone has {} bytes", source_, bytes.size(), sizeof head));
+    }
+    std::memcpy(&head, bytes.data(), sizeof head);
+    if (head.magic != magic) throw InputError(fmt::format("{} is not a snapshot: byte 0 does not begin one", source_));
+    if (head.version > snapshot_version || head.version == 0) {
+        throw InputError(fmt::format("{} has version {} (byte 12); this program reads versions 1 to {}", source_,
+                                     head.version, snapshot_version));
+    }
+    if (head.check != headCheck(head)) throw InputError(fmt::format("{} is damaged within bytes 8 and 32", source_));
+    if (head.kind != static_cast<std::uint32_t>(kind)) {
+        throw InputError(fmt::format("{} holds {} (byte 8), not {}", source_,
+                                     head.kind == static_cast<std::uint32_t>(FrameKind::world) ? "a world" : "a run",
+                                     kind == FrameKind::world ? "a world" : "a run"));
+    }
+    const std::size_t behind = bytes.size() - sizeof head;
+    const std::size_t blocks = head.content <= behind ? blocksOf(head.content) : 0;
+    if (head.content > behind || blocks * sizeof(std::uint64_t) > behind - head.content) {
+        throw InputError(
+            fmt::format("{} is truncated at byte {}: it has {} bytes of content", source_, bytes.size(), head.content));
+    }
+    if (const std::size_t end = sizeof head + head.content + blocks * sizeof(std::uint64_t); end != bytes.size()) {
+        throw InputError(fmt::format("{} has {} bytes, but ends at byte {}", source_, bytes.size(), end));
+    }
+    version_ = head.version;
+    bytes_ = bytes.first(sizeof head + head.content);
+    at_ = sizeof head;
+    for (std::size_t i = 0; i < blocks; ++i) {
+        const auto block = bytes_.subspan(sizeof head + i * block_size)
+                               .first(std::min<std::size_t>(block_size, head.content - i * block_size));
+        std::uint64_t sum = 0;
+        std::memcpy(&sum, bytes.data() + bytes_.size() + i * sizeof sum, sizeof sum);
+        if (sum == checksum(block)) continue;
+        const std::size_t begin = sizeof head + i * block_size;
+        throw InputError(fmt::format("{} is damaged within bytes {} and {}", source_, begin, begin + block.size()));
+    }
+}
+
+std::string ByteReader::getText() {
+    const std::uint64_t count = get<std::uint64_t>();
+    if (count > left()) refuse("a text longer than the snapshot");
+    std::string text(count, '\0');
+    if (count > 0) std::memcpy(text.data(), take(count), count);
+    return text;
+}
+
+const std::byte* ByteReader::take(std::size_t count) {
+    if (count > left()) refuse("less than what should follow");
+    at_ += count;
+    return bytes_.data() + (at_ - count);
+}
+
+void ByteReader::refuse(std::string_view what) const {
+    throw InputError(fmt::format("{} cannot be read: at byte {} there is {}", source_, at_, what));
+}
+
+void ByteReader::finish() const {
+    if (left() > 0) refuse("more than it should hold");
+}
+
+}  // namespace cairn

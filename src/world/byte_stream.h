@@ -1,0 +1,125 @@
+/// @file Numbers and arrays as bytes in little-endian order, with a head that tells damage from content. The format is
+/// described in docs/snapshots.md.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "cairn/types.h"
+
+namespace cairn {
+
+// Arrays are copied as they lie in memory, since a rollback saves in every step.
+static_assert(std::endian::native == std::endian::little, "snapshots need a little-endian machine");
+
+/// What may be copied byte by byte: numbers, enumerations, and Eigen's fixed vectors, which hold nothing else.
+template <class T>
+concept PlainBytes = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Vec3> ||
+    std::is_same_v<T, Mat3> || std::is_same_v<T, Quat>;
+
+/// What a frame of bytes holds.
+enum class FrameKind : std::uint32_t { world = 1, scene_run = 2 };
+
+/// Writes into a buffer whose memory is used again.
+class ByteWriter {
+  public:
+    /// Begins a frame at the start of the buffer; what the buffer held is overwritten.
+    ByteWriter(std::vector<std::byte>& buffer, FrameKind kind);
+
+    template <PlainBytes T>
+    void put(const T& value) {
+        std::memcpy(grow(sizeof(T)), &value, sizeof(T));
+    }
+    /// The count, then the elements.
+    template <PlainBytes T>
+    void putArray(std::span<const T> values) {
+        put(std::uint64_t{values.size()});
+        if (!values.empty()) std::memcpy(grow(values.size_bytes()), values.data(), values.size_bytes());
+    }
+    void putText(std::string_view text) { putArray(std::span<const char>(text)); }
+    /// Writes the head: kind, version, length and checksums. Nothing may be put afterwards.
+    void finish();
+
+  private:
+    std::byte* grow(std::size_t bytes) {
+        const std::size_t begin = end_;
+        end_ += bytes;
+        if (end_ > buffer_.size()) enlarge();
+        return buffer_.data() + begin;
+    }
+    void enlarge();
+
+    std::vector<std::byte>& buffer_;
+    FrameKind kind_;
+    std::size_t end_;
+};
+
+/// Reads what a ByteWriter wrote. Every refusal names the offset.
+class ByteReader {
+  public:
+    /// @param source shown in messages, such as "snapshot" or a file name
+    /// @throws InputError if the bytes are truncated, damaged, of another kind or of a newer version
+    ByteReader(std::span<const std::byte> bytes, FrameKind kind, std::string source);
+
+    std::uint32_t version() const { return version_; }
+
+    template <PlainBytes T>
+    T get() {
+        T value;
+        std::memcpy(static_cast<void*>(&value), take(sizeof(T)), sizeof(T));
+        return value;
+    }
+    /// A value of an enumeration whose last name is given. @throws InputError beyond it
+    template <class Enum>
+    Enum getEnum(Enum last) {
+        const auto value = get<std::underlying_type_t<Enum>>();
+        if (value > static_cast<std::underlying_type_t<Enum>>(last)) refuse("an unknown choice");
+        return static_cast<Enum>(value);
+    }
+    template <PlainBytes T>
+    void getArray(std::vector<T>& values) {
+        const std::uint64_t count = get<std::uint64_t>();
+        // Compared before anything is reserved: a damaged count must not ask for the memory it names.
+        if (count > left() / sizeof(T)) refuse("an array longer than the snapshot");
+        values.resize(count);
+        if (count > 0) std::memcpy(static_cast<void*>(values.data()), take(count * sizeof(T)), count * sizeof(T));
+    }
+    /// An array of a known length. @throws InputError if it has another
+    template <PlainBytes T>
+    void getArray(std::vector<T>& values, std::size_t count) {
+        getArray(values);
+        if (values.size() != count) refuse("an array of a wrong length");
+    }
+    std::string getText();
+    /// @throws InputError naming the offset
+    [[noreturn]] void refuse(std::string_view what) const;
+    /// @throws InputError unless everything was read
+    void finish() const;
+
+  private:
+    std::size_t left() const { return bytes_.size() - at_; }
+    const std::byte* take(std::size_t count);
+
+    std::span<const std::byte> bytes_;
+    std::string source_;
+    std::size_t at_ = 0;
+    std::uint32_t version_ = 0;
+};
+
+/// Writes the head of a frame over its first bytes. For tests that change what is behind it.
+void sealFrame(std::span<std::byte> frame, FrameKind kind, std::uint32_t version);
+
+/// Bytes of the head of a frame with so many bytes behind it.
+std::size_t frameHeadSize();
+
+/// The version of the format that is written.
+inline constexpr std::uint32_t snapshot_version = 1;
+
+}  // namespace cairn

@@ -1,0 +1,21 @@
+/// @file Invariants of a step that can be checked while it runs.
+#pragma once
+
+#include "world/world_state.h"
+
+namespace cairn {
+
+/// Energy that the bodies move with [J]. Fixed bodies have none.
+double kineticEnergyOf(const BodyStorage& bodies);
+
+/// @throws InvariantError unless the batches split the contacts as they must
+void checkBatches(const WorldState& world);
+
+/// Contacts take energy away; they never give any. @param before kinetic energy before the resolution [J]
+/// @throws InvariantError if it rose
+void checkEnergy(const WorldState& world, double before);
+
+/// The state after a step. @throws InvariantError naming step, body and what is wrong
+void checkState(const WorldState& world);
+
+}  // namespace cairn

@@ -1,0 +1,171 @@
+/// @file The fields of a snapshot, each list written once for saving and loading. Their order is the format: changing
+/// one needs a new snapshot_version, and the old list for old versions.
+#pragma once
+
+#include "world/byte_stream.h"
+#include "world/world_state.h"
+
+namespace cairn {
+
+template <PlainBytes T>
+void field(ByteWriter& out, const T& value) {
+    out.put(value);
+}
+template <PlainBytes T>
+void field(ByteReader& in, T& value) {
+    value = in.get<T>();
+}
+inline void field(ByteReader& in, bool& value) {
+    const auto byte = in.get<std::uint8_t>();
+    if (byte > 1) in.refuse("a switch that is neither on nor off");
+    value = byte == 1;
+}
+
+template <PlainBytes T>
+void array(ByteWriter& out, const std::vector<T>& values) {
+    out.putArray(std::span<const T>(values));
+}
+template <PlainBytes T>
+void array(ByteReader& in, std::vector<T>& values) {
+    in.getArray(values);
+}
+
+/// An array with one entry per slot.
+template <PlainBytes T>
+void slotArray(ByteWriter& out, const std::vector<T>& values, std::size_t) {
+    out.putArray(std::span<const T>(values));
+}
+template <PlainBytes T>
+void slotArray(ByteReader& in, std::vector<T>& values, std::size_t slots) {
+    in.getArray(values, slots);
+}
+
+/// The count, then every element.
+template <class List, class SaveElement>
+void saveList(ByteWriter& out, const List& list, const SaveElement& save) {
+    out.put(std::uint64_t{list.size()});
+    for (const auto& element : list) save(element);
+}
+
+// Each Stream is a ByteWriter with a const object or a ByteReader with one to fill.
+
+template <class Stream, class Pair>
+void pairFields(Stream& stream, Pair& pair) {
+    field(stream, pair.restitution);
+    field(stream, pair.static_friction);
+    field(stream, pair.kinetic_friction);
+}
+
+template <class Stream, class World>
+void worldFields(Stream& stream, World& world) {
+    field(stream, world.gravity);
+    field(stream, world.global_acceleration);
+    field(stream, world.steps);
+    field(stream, world.time);
+    field(stream, world.steps_at_start);
+    field(stream, world.time_at_start);
+}
+
+/// Left out: shape and name, which are no plain numbers, and linear_step, which every step computes anew.
+template <class Stream, class Bodies>
+void bodyArrays(Stream& stream, Bodies& bodies, std::size_t slots) {
+    slotArray(stream, bodies.kind, slots);
+    slotArray(stream, bodies.generation, slots);
+    slotArray(stream, bodies.material, slots);
+    slotArray(stream, bodies.position, slots);
+    slotArray(stream, bodies.orientation, slots);
+    slotArray(stream, bodies.v, slots);
+    slotArray(stream, bodies.w, slots);
+    slotArray(stream, bodies.mass, slots);
+    slotArray(stream, bodies.inertia_B, slots);
+    slotArray(stream, bodies.mass_inv, slots);
+    slotArray(stream, bodies.inertiaInv_B, slots);
+    slotArray(stream, bodies.inertiaInv_W, slots);
+    slotArray(stream, bodies.r_max, slots);
+    slotArray(stream, bodies.force, slots);
+    slotArray(stream, bodies.torque, slots);
+    slotArray(stream, bodies.constant_force, slots);
+    slotArray(stream, bodies.constant_torque, slots);
+    slotArray(stream, bodies.asleep, slots);
+    slotArray(stream, bodies.woken, slots);
+    slotArray(stream, bodies.motion, slots);
+    slotArray(stream, bodies.supports, slots);
+}
+
+template <class Stream, class AnySpring>
+void springFields(Stream& stream, AnySpring& spring) {
+    field(stream, spring.present);
+    field(stream, spring.generation);
+    field(stream, spring.a);
+    field(stream, spring.b);
+    field(stream, spring.anchor_a);
+    field(stream, spring.anchor_b);
+    field(stream, spring.stiffness);
+    field(stream, spring.damping);
+    field(stream, spring.rest_length);
+}
+
+/// What World::contacts() shows and removeBody() needs; the rest of a contact is of use within a step only.
+template <class Stream, class AnyContact>
+void contactFields(Stream& stream, AnyContact& contact) {
+    field(stream, contact.a);
+    field(stream, contact.b);
+    field(stream, contact.point);
+    field(stream, contact.normal);
+    field(stream, contact.distance);
+    field(stream, contact.impulse);
+}
+
+template <class Stream, class AnyBatches>
+void batchArrays(Stream& stream, AnyBatches& batches) {
+    array(stream, batches.bodies);
+    array(stream, batches.contacts);
+    array(stream, batches.body_begin);
+    array(stream, batches.contact_begin);
+    array(stream, batches.batch_of_contact);
+}
+
+template <class Stream, class Entry>
+void memoryFields(Stream& stream, Entry& entry) {
+    field(stream, entry.a);
+    field(stream, entry.b);
+    field(stream, entry.place_a);
+    field(stream, entry.place_b);
+    field(stream, entry.impulse);
+}
+
+/// All but the wall times, which are no part of the state: equal worlds have equal snapshots.
+template <class Stream, class AnyStatistics>
+void statisticsFields(Stream& stream, AnyStatistics& statistics) {
+    field(stream, statistics.contacts);
+    field(stream, statistics.penetrating_contacts);
+    field(stream, statistics.corrected_contacts);
+    field(stream, statistics.uncorrected_contacts);
+    field(stream, statistics.displaced_bodies);
+    field(stream, statistics.global_iterations);
+    field(stream, statistics.shock_iterations);
+    field(stream, statistics.shock_batches);
+    field(stream, statistics.batches);
+    field(stream, statistics.largest_batch);
+    field(stream, statistics.asleep);
+    field(stream, statistics.woken);
+    field(stream, statistics.largest_overlap);
+    field(stream, statistics.mean_overlap);
+}
+
+template <class Stream, class AnyEvent>
+void eventFields(Stream& stream, AnyEvent& event) {
+    field(stream, event.kind);
+    field(stream, event.reason);
+    field(stream, event.a.index);
+    field(stream, event.a.generation);
+    field(stream, event.b.index);
+    field(stream, event.b.generation);
+    field(stream, event.contacts);
+    field(stream, event.point);
+    field(stream, event.normal);
+    field(stream, event.distance);
+    field(stream, event.impulse);
+}
+
+}  // namespace cairn

@@ -1,0 +1,326 @@
+#include "world/snapshot.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "world/saved_fields.h"
+
+namespace cairn {
+
+namespace {
+
+void saveSettings(const Settings& settings, ByteWriter& out) {
+    out.put(std::uint64_t{settingFields().size()});
+    for (const SettingField& field : settingFields()) {
+        const SettingValue value = field.get(settings);
+        out.putText(field.name);
+        out.put(static_cast<std::uint8_t>(value.index()));
+        if (const auto* on = std::get_if<bool>(&value)) out.put(static_cast<std::uint8_t>(*on));
+        if (const auto* whole = std::get_if<std::int64_t>(&value)) out.put(*whole);
+        if (const auto* number = std::get_if<double>(&value)) out.put(*number);
+        if (const auto* name = std::get_if<std::string>(&value)) out.putText(*name);
+    }
+}
+
+SettingValue loadSettingValue(ByteReader& in) {
+    switch (in.get<std::uint8_t>()) {
+        case 0:
+            return in.get<std::uint8_t>() != 0;
+        case 1:
+            return in.get<std::int64_t>();
+        case 2:
+            return in.get<double>();
+        case 3:
+            return in.getText();
+        default:
+            in.refuse("an unknown type of setting");
+    }
+}
+
+/// Fields that a newer program added keep their defaults.
+Settings loadSettings(ByteReader& in) {
+    Settings settings;
+    for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
+        const std::string name = in.getText();
+        const SettingValue value = loadSettingValue(in);
+        try {
+            setField(settings, name, value);
+        } catch (const InputError& error) {
+            in.refuse(error.what());
+        }
+    }
+    return settings;
+}
+
+void saveMaterials(const MaterialTable& materials, ByteWriter& out) {
+    const auto count = static_cast<std::uint32_t>(materials.all().size());
+    out.put(count);
+    for (const Material& material : materials.all()) {
+        out.putText(material.name);
+        out.put(material.density);
+    }
+    PairProperties pair = materials.defaultPair();
+    pairFields(out, pair);
+    for (std::uint32_t a = 0; a < count; ++a) {
+        for (std::uint32_t b = a; b < count; ++b) {
+            const PairProperties* own = materials.ownPair(a, b);
+            out.put(static_cast<std::uint8_t>(own != nullptr));
+            if (own != nullptr) pairFields(out, *own);
+        }
+    }
+}
+
+void loadMaterials(ByteReader& in, MaterialTable& materials) {
+    const auto count = in.get<std::uint32_t>();
+    try {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::string name = in.getText();
+            materials.add({name, in.get<double>()});
+        }
+        PairProperties pair;
+        pairFields(in, pair);
+        materials.setDefault(pair);
+        for (std::uint32_t a = 0; a < count; ++a) {
+            for (std::uint32_t b = a; b < count; ++b) {
+                if (in.get<std::uint8_t>() == 0) continue;
+                pairFields(in, pair);
+                materials.setPair(static_cast<MaterialId>(a), static_cast<MaterialId>(b), pair);
+            }
+        }
+    } catch (const StaleIdError&) {
+        throw;
+    } catch (const InputError& error) {
+        in.refuse(error.what());
+    }
+}
+
+/// A shape as a kind and four numbers.
+using ShapeNumbers = std::array<double, 4>;
+
+ShapeNumbers numbersOf(const Shape& shape) {
+    struct Visitor {
+        ShapeNumbers operator()(const Sphere& s) const { return {s.radius}; }
+        ShapeNumbers operator()(const Box& b) const { return {b.size.x(), b.size.y(), b.size.z()}; }
+        ShapeNumbers operator()(const Capsule& c) const { return {c.radius, c.length}; }
+        ShapeNumbers operator()(const HalfSpace& h) const {
+            return {h.normal.x(), h.normal.y(), h.normal.z(), h.offset};
+        }
+    };
+    return std::visit(Visitor{}, shape);
+}
+
+Shape shapeFrom(std::uint8_t kind, const double* n, const ByteReader& in) {
+    switch (kind) {
+        case 0:
+            return Sphere{n[0]};
+        case 1:
+            return Box{Vec3(n[0], n[1], n[2])};
+        case 2:
+            return Capsule{n[0], n[1]};
+        case 3:
+            return HalfSpace{Vec3(n[0], n[1], n[2]), n[3]};
+        default:
+            in.refuse("an unknown kind of shape");
+    }
+}
+
+void saveShapes(std::span<const Shape> shapes, ByteWriter& out) {
+    for (const Shape& shape : shapes) {
+        out.put(static_cast<std::uint8_t>(shape.index()));
+        for (const double number : numbersOf(shape)) out.put(number);
+    }
+}
+
+void loadShapes(ByteReader& in, const std::vector<BodyKind>& kind, std::vector<Shape>& shapes) {
+    shapes.resize(kind.size());
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const auto index = in.get<std::uint8_t>();
+        ShapeNumbers numbers{};
+        for (double& number : numbers) number = in.get<double>();
+        shapes[i] = shapeFrom(index, numbers.data(), in);
+        if (kind[i] == BodyKind::hole) continue;
+        try {
+            validateShape(shapes[i]);
+        } catch (const InputError& error) {
+            in.refuse(error.what());
+        }
+    }
+}
+
+/// Refuses what no world can be. Velocities may be anything, since the next step tells such a fault.
+void checkBody(const ByteReader& in, const BodyStorage& b, BodyIndex i, std::size_t materials) {
+    if (b.material[i] >= materials) in.refuse(fmt::format("body {} of an unknown material", i));
+    if (!b.position[i].allFinite()) in.refuse(fmt::format("body {} at no place", i));
+    if (!(std::abs(b.orientation[i].coeffs().squaredNorm() - 1) < 1e-6)) {
+        in.refuse(fmt::format("body {} with an orientation that is no unit quaternion", i));
+    }
+    if (b.kind[i] != BodyKind::dynamic) return;
+    if (isInfinite(b.shape[i])) in.refuse(fmt::format("body {} that is infinite and moves", i));
+    const bool heavy =
+        b.mass[i] > 0 && std::isfinite(b.mass[i]) && b.inertia_B[i].allFinite() && (b.inertia_B[i].array() > 0).all();
+    if (!heavy) in.refuse(fmt::format("body {} without a mass", i));
+    if (!(b.r_max[i] > 0)) in.refuse(fmt::format("body {} without a size", i));
+}
+
+void saveBodies(const BodyStorage& b, ByteWriter& out) {
+    out.put(std::uint64_t{b.slots()});
+    bodyArrays(out, b, b.slots());
+    saveShapes(b.shape, out);
+    for (const std::string& name : b.name) out.putText(name);
+}
+
+void loadBodies(ByteReader& in, std::size_t materials, BodyStorage& b) {
+    const auto slots = in.get<std::uint64_t>();
+    bodyArrays(in, b, slots);
+    if (std::ranges::any_of(b.kind, [](BodyKind kind) { return kind > BodyKind::dynamic; }) ||
+        std::ranges::any_of(b.woken, [](WakeReason reason) { return reason > WakeReason::floating; }) ||
+        std::ranges::any_of(b.asleep, [](std::uint8_t asleep) { return asleep > 1; })) {
+        in.refuse("an unknown state of a body");
+    }
+    loadShapes(in, b.kind, b.shape);
+    b.name.resize(slots);
+    for (std::string& name : b.name) name = in.getText();
+    b.linear_step.assign(slots, Vec3::Zero());
+    b.adoptSlots();
+    for (BodyIndex i = 0; i < slots; ++i) {
+        if (b.kind[i] != BodyKind::hole) checkBody(in, b, i, materials);
+    }
+}
+
+void loadSprings(ByteReader& in, const BodyStorage& bodies, std::vector<Spring>& springs) {
+    for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
+        Spring& spring = springs.emplace_back();
+        springFields(in, spring);
+        if (!spring.present) continue;
+        const auto exists = [&](BodyIndex i) { return i < bodies.slots() && bodies.kind[i] != BodyKind::hole; };
+        if (!exists(spring.a) || (spring.b != Spring::world_point && !exists(spring.b))) {
+            in.refuse("a spring of an unknown body");
+        }
+    }
+}
+
+/// Offsets that begin at 0, never fall and end at the number of entries.
+bool areOffsets(const std::vector<std::uint32_t>& begin, std::size_t entries) {
+    if (begin.empty()) return entries == 0;
+    return begin.front() == 0 && begin.back() == entries && std::ranges::is_sorted(begin);
+}
+
+bool areBelow(const std::vector<std::uint32_t>& indices, std::size_t limit) {
+    return std::ranges::all_of(indices, [&](std::uint32_t index) { return index < limit; });
+}
+
+bool areSorted(BodyIndex a, BodyIndex b, BodyIndex next_a, BodyIndex next_b) {
+    return a < next_a || (a == next_a && b <= next_b);
+}
+
+void loadContacts(ByteReader& in, StepData& data) {
+    in.getArray(data.generation);
+    const auto count = in.get<std::uint64_t>();
+    for (auto left = count; left > 0; --left) {
+        Contact& contact = data.contacts.emplace_back();
+        contactFields(in, contact);
+        const bool known = contact.a < contact.b && contact.b < data.generation.size();
+        if (!known) in.refuse("a contact of an unknown body");
+    }
+    Batches& batches = data.batches;
+    batchArrays(in, batches);
+    const bool sound = areBelow(batches.bodies, data.generation.size()) && areBelow(batches.contacts, count) &&
+                       areOffsets(batches.body_begin, batches.bodies.size()) &&
+                       areOffsets(batches.contact_begin, batches.contacts.size()) &&
+                       batches.body_begin.size() == batches.contact_begin.size() &&
+                       batches.batch_of_contact.size() == count && areBelow(batches.batch_of_contact, batches.size());
+    if (!sound) in.refuse("batches that do not fit the contacts");
+}
+
+void loadMemory(ByteReader& in, std::size_t slots, ContactMemory& memory) {
+    std::vector<ContactMemory::Entry> entries;
+    for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
+        ContactMemory::Entry entry{};
+        memoryFields(in, entry);
+        const bool known = entry.a < slots && entry.b < slots;
+        const bool sorted = entries.empty() || areSorted(entries.back().a, entries.back().b, entry.a, entry.b);
+        if (!known || !sorted) in.refuse("a remembered contact out of order");
+        entries.push_back(entry);
+    }
+    memory.restore(std::move(entries));
+}
+
+void saveFaults(const std::vector<FaultInfo>& faults, ByteWriter& out) {
+    out.put(std::uint64_t{faults.size()});
+    for (const FaultInfo& fault : faults) {
+        out.put(fault.body.index);
+        out.put(fault.body.generation);
+        out.put(fault.step);
+        out.putText(fault.what);
+    }
+}
+
+void loadFaults(ByteReader& in, std::vector<FaultInfo>& faults) {
+    for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
+        FaultInfo& fault = faults.emplace_back();
+        fault.body.index = in.get<std::uint32_t>();
+        fault.body.generation = in.get<std::uint32_t>();
+        fault.step = in.get<std::int64_t>();
+        fault.what = in.getText();
+    }
+}
+
+void loadEvents(ByteReader& in, EventLog& log) {
+    log.level = in.getEnum(EventLevel::all);
+    for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
+        Event& event = log.events.emplace_back();
+        eventFields(in, event);
+        if (event.kind > EventKind::frozen || event.reason > WakeReason::floating) in.refuse("an unknown event");
+    }
+}
+
+void checkWorld(const ByteReader& in, const WorldState& world) {
+    try {
+        validate(world.settings, world.gravity + world.global_acceleration);
+    } catch (const InputError& error) {
+        in.refuse(error.what());
+    }
+    const bool sound = world.steps >= 0 && world.steps_at_start >= 0 && world.steps_at_start <= world.steps &&
+                       std::isfinite(world.time) && std::isfinite(world.time_at_start);
+    if (!sound) in.refuse("a time that no world has");
+    if (world.data.generation.size() > world.bodies.slots()) in.refuse("contacts of more bodies than there are");
+}
+
+}  // namespace
+
+void saveWorld(const WorldState& world, ByteWriter& out) {
+    saveSettings(world.settings, out);
+    saveMaterials(world.materials, out);
+    worldFields(out, world);
+    saveBodies(world.bodies, out);
+    saveList(out, world.springs, [&](const Spring& spring) { springFields(out, spring); });
+    out.putArray(std::span(world.data.generation));
+    saveList(out, world.data.contacts, [&](const Contact& contact) { contactFields(out, contact); });
+    batchArrays(out, world.data.batches);
+    saveList(out, world.memory.entries(), [&](const ContactMemory::Entry& entry) { memoryFields(out, entry); });
+    statisticsFields(out, world.statistics);
+    saveFaults(world.faults, out);
+    out.put(world.events.level);
+    saveList(out, world.events.events, [&](const Event& event) { eventFields(out, event); });
+}
+
+std::unique_ptr<WorldState> loadWorld(ByteReader& in) {
+    const Settings settings = loadSettings(in);
+    auto world = std::make_unique<WorldState>(settings);
+    loadMaterials(in, world->materials);
+    worldFields(in, *world);
+    loadBodies(in, world->materials.all().size(), world->bodies);
+    loadSprings(in, world->bodies, world->springs);
+    loadContacts(in, world->data);
+    loadMemory(in, world->bodies.slots(), world->memory);
+    statisticsFields(in, world->statistics);
+    loadFaults(in, world->faults);
+    loadEvents(in, world->events);
+    checkWorld(in, *world);
+    return world;
+}
+
+}  // namespace cairn

@@ -1,0 +1,32 @@
+/// The part of World that saves and restores.
+#include "cairn/world.h"
+#include "world/snapshot.h"
+
+namespace cairn {
+
+World::World(std::unique_ptr<WorldState> state) : state_(std::move(state)) {}
+
+std::vector<std::byte> World::save() const {
+    std::vector<std::byte> snapshot;
+    saveTo(snapshot);
+    return snapshot;
+}
+
+void World::saveTo(std::vector<std::byte>& buffer) const {
+    ByteWriter out(buffer, FrameKind::world);
+    saveWorld(*state_, out);
+    out.finish();
+}
+
+World World::restore(std::span<const std::byte> snapshot) {
+    ByteReader in(snapshot, FrameKind::world, "snapshot");
+    std::unique_ptr<WorldState> state = loadWorld(in);
+    in.finish();
+    return World(std::move(state));
+}
+
+void World::load(std::span<const std::byte> snapshot) {
+    *this = restore(snapshot);
+}
+
+}  // namespace cairn
