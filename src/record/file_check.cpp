@@ -62,10 +62,9 @@ FileState checkFile(const std::filesystem::path& path) {
     requireLength(path, superblock_size);
     const bool known = (begin[version_at] == 2 || begin[version_at] == 3) && begin[offset_size_at] == 8;
     if (!known) return {};  // not written by Cairn; HDF5 can open it, and its missing marker is reported
-    const FileState state{begin[flags_at] == 0, littleEndian(begin.data() + end_of_file_at)};
-    // A writer that could not close the file, because the disk was full, may have announced more than it wrote.
-    if (state.closed) requireLength(path, state.length);
-    return state;
+    // HDF5 itself does not look at the length of files that were not closed.
+    requireLength(path, littleEndian(begin.data() + end_of_file_at));
+    return {.closed = begin[flags_at] == 0};
 }
 
 }  // namespace cairn

@@ -8,11 +8,10 @@ namespace cairn {
 
 /// What the beginning of an HDF5 file says.
 struct FileState {
-    bool closed = true;        ///< its writer closed it; if not it is being written, or its writer was killed
-    std::uint64_t length = 0;  ///< that it should have [bytes]; 0 = unknown
+    bool closed = true;  ///< its writer closed it; if not it is being written, or its writer was killed
 };
 
-/// @throws IoError if the file is missing, unreadable, empty, no HDF5 file, or closed and shorter than it says
+/// @throws IoError if the file is missing, unreadable, empty, no HDF5 file, or shorter than it says
 FileState checkFile(const std::filesystem::path& path);
 
 /// @param length [bytes] that the file must have at least @throws IoError if it is shorter

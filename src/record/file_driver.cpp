@@ -77,8 +77,17 @@ haddr_t endOfAllocation(const H5FD_t* file, H5FD_mem_t) {
     return own(file).end_of_allocation;
 }
 
+void setLength(OpenFile& file, haddr_t length) {
+    if (file.state->error == 0 && ::ftruncate(file.descriptor, static_cast<off_t>(length)) != 0) {
+        file.state->error = errno;
+    }
+    file.end_of_file = length;
+}
+
+/// The file grows at once, so that it is never shorter than its superblock says; a shorter one has been cut.
 herr_t setEndOfAllocation(H5FD_t* file, H5FD_mem_t, haddr_t end) {
     own(file).end_of_allocation = end;
+    if (end > own(file).end_of_file) setLength(own(file), end);
     return 0;
 }
 
@@ -137,12 +146,7 @@ herr_t writeFile(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t size, 
 }
 
 herr_t truncateFile(H5FD_t* file, hid_t, hbool_t) {
-    OpenFile& to = own(file);
-    if (to.end_of_allocation == to.end_of_file) return 0;
-    if (to.state->error == 0 && ::ftruncate(to.descriptor, static_cast<off_t>(to.end_of_allocation)) != 0) {
-        to.state->error = errno;
-    }
-    to.end_of_file = to.end_of_allocation;
+    if (own(file).end_of_allocation != own(file).end_of_file) setLength(own(file), own(file).end_of_allocation);
     return 0;
 }
 

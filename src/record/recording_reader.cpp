@@ -62,16 +62,6 @@ std::string textAttribute(const hdf5::File& file, const std::filesystem::path& p
 struct RecordingReader::Impl {
     explicit Impl(const std::filesystem::path& file_path) : path(file_path) {
         const FileState state = checkFile(path);
-        try {
-            load(state);
-        } catch (const IoError&) {
-            // What is wrong with a file that is too short is that it is too short.
-            requireLength(path, state.length);
-            throw;
-        }
-    }
-
-    void load(const FileState& state) {
         file = openFile(path, state);
         requireRecording(file, path);
         info.scene = readRecordedScene(file, path);

@@ -65,7 +65,7 @@ void refuseWrongSize(std::size_t size, std::size_t bodies, const char* what) {
 struct RecordingWriter::Impl {
     Impl(const std::filesystem::path& file_path, const Scene& scene, const Settings& settings)
         : path(file_path), bodies(scene.bodies.size()), driver(path), file(createFile(path, driver, writes)) {
-        requireWritten("cannot be created");
+        requireWritten(file ? "cannot be written" : "cannot be created");
         writeMetadata(file, path, scene, settings);
         series.emplace(file, path, bodies);
         checked(H5Fstart_swmr_write(file.get()), path, "cannot be made readable while it is written");
