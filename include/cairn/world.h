@@ -57,6 +57,18 @@ struct BatchInfo {
     std::size_t contacts = 0;
 };
 
+/// Whether steps note for every body what the response did with it; costs a little time in every step.
+enum class Tracing { off, on };
+
+/// What the last step did with a body, for viewers.
+struct BodyTrace {
+    Vec3 bounds_lower = Vec3::Zero();  ///< bounds as the broad phase saw them [m, W]; infinite for half-spaces
+    Vec3 bounds_upper = Vec3::Zero();  ///< [m, W]
+    int level = -1;                    ///< in the hierarchy of the broad phase; −1 = outside it
+    Vec3 correction = Vec3::Zero();    ///< displacement by the penetration correction [m, W]; needs Tracing::on
+    int shock_stage = -1;              ///< subset of the shock propagation, from 0; −1 = none; needs Tracing::on
+};
+
 /// A body that left the finite numbers was fixed where it last was finite.
 struct FaultInfo {
     BodyId body;            ///< which one
@@ -171,6 +183,10 @@ class World {
     std::vector<BatchInfo> batches() const;        ///< of the last step, by their lowest body
     const Statistics& statistics() const;          ///< of the last step
     const std::vector<FaultInfo>& faults() const;  ///< all so far
+    /// Whether the following steps trace what they do with each body; off at first.
+    void setTracing(Tracing tracing);
+    /// What the last step did with a body. @throws StaleIdError
+    BodyTrace trace(BodyId id) const;
     /// Which events the following steps collect; none at first.
     void setEventLevel(EventLevel level);
     EventLevel eventLevel() const;

@@ -106,7 +106,8 @@ BodyState BodyStorage::state() {
             .inertiaInv_W = inertiaInv_W,
             .linear_step = linear_step,
             .asleep = asleep,
-            .woken = woken};
+            .woken = woken,
+            .shock_stage = {}};
 }
 
 }  // namespace cairn

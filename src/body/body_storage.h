@@ -31,6 +31,9 @@ struct BodyState {
     std::span<std::uint8_t> asleep;      ///< 1 = asleep
     std::span<WakeReason> woken;         ///< why it woke in this step
 
+    /// Subset of the shock propagation; empty unless the step is traced.
+    std::span<std::int32_t> shock_stage;
+
     std::size_t size() const { return kind.size(); }
     bool isFixed(BodyIndex i) const { return kind[i] != BodyKind::dynamic; }
     /// Wakes a sleeping body, keeping the first reason of the step.

@@ -18,7 +18,7 @@ struct Contact {
     double static_friction = 0;
     double kinetic_friction = 0;
     Vec3 last_impulse = Vec3::Zero();  ///< that A received here in the last step [N·s, W]; zero for a new contact
-    Vec3 impulse = Vec3::Zero();  ///< sum of what A received in this step [N·s, W]; B received the opposite
+    Vec3 impulse = Vec3::Zero();       ///< sum of what A received in this step [N·s, W]; B received the opposite
 };
 
 }  // namespace cairn

@@ -11,12 +11,13 @@ namespace cairn {
 
 /// Copy of what the resolution needs of one body, so that a batch lies densely in memory. Two cache lines.
 struct alignas(64) LocalBody {
-    Vec3 v;                   ///< [m/s, W]
-    Vec3 w;                   ///< [rad/s, W]
-    Symmetric3 inertia_inv;   ///< [1/(kg·m²), W]; 0 = infinite
-    double mass_inv = 0;      ///< [1/kg]; 0 = infinite
-    BodyIndex slot = 0;       ///< index in BodyState
-    std::uint8_t struck = 0;  ///< 1 = a contact of it was processed
+    Vec3 v;                         ///< [m/s, W]
+    Vec3 w;                         ///< [rad/s, W]
+    Symmetric3 inertia_inv;         ///< [1/(kg·m²), W]; 0 = infinite
+    double mass_inv = 0;            ///< [1/kg]; 0 = infinite
+    BodyIndex slot = 0;             ///< index in BodyState
+    std::uint8_t struck = 0;        ///< 1 = a contact of it was processed
+    std::int32_t shock_stage = -1;  ///< subset of the shock propagation; −1 = none
 };
 
 /// What stays constant of a contact while its batch is resolved, and the sum of its impulses. Four cache lines.

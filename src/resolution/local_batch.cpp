@@ -53,6 +53,7 @@ void LocalBatch::gather(const BatchView& batch, std::span<const Contact> all_con
 void LocalBatch::scatter(const BatchView& batch, std::span<Contact> all_contacts, const BodyState& state) const {
     for (std::size_t i = 0; i < dynamic_bodies; ++i) {
         const LocalBody& body = bodies[i];
+        if (!state.shock_stage.empty()) state.shock_stage[body.slot] = body.shock_stage;
         if (body.struck == 0) continue;
         state.wake(body.slot, WakeReason::struck);
         state.v[body.slot] = body.v;

@@ -57,6 +57,7 @@ void ShockPropagation::listContactsOfSubset(const QueueSolver& solver) {
 void ShockPropagation::freezeSubset(QueueSolver& solver) {
     LocalBatch& batch = solver.batch;
     for (const std::uint32_t body : subset_) {
+        batch.bodies[body].shock_stage = static_cast<std::int32_t>(stage_);
         batch.bodies[body].mass_inv = 0;
         batch.bodies[body].inertia_inv = {};
     }

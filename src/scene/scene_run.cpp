@@ -113,6 +113,16 @@ void addSpring(const SceneSpring& spring, const std::vector<BodyId>& ids, World&
     world.addSpring(description);
 }
 
+/// True if the action is for a body that is no longer in the world.
+template <class Action>
+bool isGone(const World& world, const std::vector<BodyId>& ids, const Action& action) {
+    if constexpr (requires { action.body; }) {
+        return !world.contains(bodyId(ids, action.body));
+    } else {
+        return false;
+    }
+}
+
 /// What an event does to a body.
 struct BodyAction {
     World& world;
@@ -155,15 +165,16 @@ SceneRun::SceneRun(const Scene& scene, const Settings& settings) : scene_(scene)
 }
 
 void SceneRun::apply(const EventAction& action) {
-    std::visit(BodyAction{world_, ids_}, action);
+    // A body that the user removed (through world()) has no more events; the scene itself cannot name one.
+    const bool gone = std::visit([&](const auto& a) { return isGone(world_, ids_, a); }, action);
+    if (!gone) std::visit(BodyAction{world_, ids_}, action);
 }
 
 void SceneRun::step() {
-    const double steps_per_second = world_.settings().steps_per_second;
-    const auto now = static_cast<double>(world_.stepCount());
-    // In steps, with a tolerance: an event at 0.1 s belongs to step 24 of 240, whatever 0.1 · 240 is rounded to.
-    while (next_event_ < scene_.events.size() &&
-           std::ceil(scene_.events[next_event_].time * steps_per_second - 1e-9) <= now) {
+    // With a tolerance of a billionth of a step: an event at 0.1 s belongs to step 24 of 240, whatever 24/240 is
+    // rounded to.
+    const double now = world_.time() + 1e-9 * world_.settings().timeStep();
+    while (next_event_ < scene_.events.size() && scene_.events[next_event_].time <= now) {
         const SceneEvent& event = scene_.events[next_event_++];
         inContext(fmt::format("event at {} s", event.time), [&] { apply(event.action); });
     }

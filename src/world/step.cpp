@@ -48,6 +48,8 @@ void buildBatchesStage(WorldState& world) {
 void correctStage(WorldState& world) {
     StepData& data = world.data;
     const BodyState bodies = world.bodies.state();
+    const bool traced = world.trace.tracing == Tracing::on;
+    if (traced) world.trace.correction = world.bodies.position;
     data.correction_counts.assign(world.corrections.size(), {});
     forBatches(data, world.executor, [&](std::uint32_t batch, int thread) {
         const auto t = static_cast<std::size_t>(thread);
@@ -58,6 +60,10 @@ void correctStage(WorldState& world) {
         data.correction_counts[t].uncorrected += counts.uncorrected;
         data.correction_counts[t].displaced += counts.displaced;
     });
+    if (!traced) return;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        world.trace.correction[i] = bodies.position[i] - world.trace.correction[i];
+    }
 }
 
 void velocityStage(WorldState& world) {
@@ -79,7 +85,11 @@ void velocityStage(WorldState& world) {
 
 void resolveStage(WorldState& world) {
     StepData& data = world.data;
-    const BodyState bodies = world.bodies.state();
+    BodyState bodies = world.bodies.state();
+    if (world.trace.tracing == Tracing::on) {
+        world.trace.shock_stage.assign(bodies.size(), -1);
+        bodies.shock_stage = world.trace.shock_stage;
+    }
     const bool remembers = world.settings.resolution.resolution == ResolutionKind::accelerated_sweeps;
     if (remembers) world.memory.recall(world.bodies, data.contacts, world.executor);
     data.resolution_counts.assign(world.resolutions.size(), {});

@@ -105,6 +105,25 @@ std::span<const Event> World::events() const {
     return state_->events.events;
 }
 
+void World::setTracing(Tracing tracing) {
+    state_->trace = {};
+    state_->trace.tracing = tracing;
+}
+
+BodyTrace World::trace(BodyId id) const {
+    const BodyIndex i = state_->bodies.indexOf(id);
+    const StepData& data = state_->data;
+    BodyTrace trace;
+    if (i < data.bounds.size()) {
+        trace.bounds_lower = data.bounds[i].lower;
+        trace.bounds_upper = data.bounds[i].upper;
+        trace.level = state_->broad_phase->level(i);
+    }
+    if (i < state_->trace.correction.size()) trace.correction = state_->trace.correction[i];
+    if (i < state_->trace.shock_stage.size()) trace.shock_stage = state_->trace.shock_stage[i];
+    return trace;
+}
+
 double World::kineticEnergy() const {
     const BodyStorage& b = state_->bodies;
     double energy = 0;

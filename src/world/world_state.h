@@ -37,6 +37,13 @@ struct StepData {
     std::vector<std::uint32_t> generation;  ///< output: [slots] generations of the bodies that the contacts name
 };
 
+/// What a traced step notes for viewers; empty while tracing is off.
+struct TraceData {
+    Tracing tracing = Tracing::off;
+    std::vector<Vec3> correction;           ///< [slots] displacement by the penetration correction [m, W]
+    std::vector<std::int32_t> shock_stage;  ///< [slots] subset of the shock propagation; −1 = none
+};
+
 /// Two bodies that touched in the last step.
 struct TouchingPair {
     BodyId a, b;
@@ -84,6 +91,7 @@ struct WorldState {
     Statistics statistics;
     std::vector<FaultInfo> faults;
     EventLog events;
+    TraceData trace;
     Checks checks = Checks::off;
 };
 
