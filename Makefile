@@ -2,6 +2,7 @@
 #   make run       build the release and run the main scene
 #   make test      build the release and run all tests
 #   make sanitize  run the tests under the address, undefined-behaviour and thread sanitizers
+#   make thesis    repeat every benchmark of the thesis: report/index.html
 #   make results   measure the scenes and rewrite the table in README.md
 #   make format | tidy | install PREFIX=DIR | clean
 
@@ -13,7 +14,7 @@ SOURCES = $$(find include src apps bench tests examples -name '*.h' -o -name '*.
 # A compiler cache is used where there is one.
 export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
 
-.PHONY: run test sanitize results format tidy install clean
+.PHONY: run test sanitize thesis results format tidy install clean
 
 run:
 	@tools/install_packages build
@@ -31,6 +32,12 @@ sanitize:
 	@tools/install_packages build test develop
 	@tools/sanitize asan-ubsan
 	@tools/sanitize tsan
+
+thesis:
+	@tools/install_packages build
+	@cmake --preset release --log-level=WARNING
+	@cmake --build --preset release --target cairn_cli
+	build/release/cairn bench thesis --out report
 
 results:
 	@tools/install_packages build

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <ctime>
 #include <set>
 
+#include "cairn/version.h"
 #include "machine.h"
 #include "page.h"
 #include "pictures.h"
@@ -133,8 +136,18 @@ std::string summaryOf(const Json& section) {
     return text;
 }
 
+/// The day of the report, in UTC.
+std::string today() {
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    return fmt::format("{:04}-{:02}-{:02}", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday);
+}
+
 Json reportHead(const Machine& machine, Extent extent) {
     return {{"extent", nameOf(extent)},
+            {"version", version},
+            {"date", today()},
             {"machine",
              {{"processor", machine.processor},
               {"cores", machine.cores},

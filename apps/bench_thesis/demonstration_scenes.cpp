@@ -64,7 +64,7 @@ Scene endlessCradleScene(int balls, int moving) {
     return scene;
 }
 
-Scene spinningBallScene() {
+Scene spinningBallScene(const Vec3& axis) {
     constexpr double inner = 6 * ball_radius;  // three balls side by side
     constexpr double wall = 0.1;
     constexpr double height = 0.1;
@@ -86,7 +86,7 @@ Scene spinningBallScene() {
         addLayer(scene, side, level);
         level += std::sqrt(2.0) * ball_radius;  // a ball in the hollow of four
     }
-    scene.bodies[spinning_ball].angular_velocity = {0, 0, spin};
+    scene.bodies[spinning_ball].angular_velocity = spin * axis;
     return scene;
 }
 

@@ -10,7 +10,8 @@ Scene endlessCradleScene(int balls, int moving);
 
 /// Index of the spinning ball in spinningBallScene().
 inline constexpr std::size_t spinning_ball = 9;
-/// A pyramid of 9, 4 and 1 oak balls in a frame; the middle ball of the lowest layer spins about the vertical.
-Scene spinningBallScene();
+/// A pyramid of 9, 4 and 1 oak balls in a frame; the middle ball of the lowest layer spins.
+/// @param axis of the spin, unit
+Scene spinningBallScene(const Vec3& axis);
 
 }  // namespace cairn::thesis

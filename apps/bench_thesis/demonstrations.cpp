@@ -149,9 +149,10 @@ Experiment endlessCradle(int balls, int moving, std::int64_t time_steps) {
         [=](const Surroundings& surroundings) { return swingForEver(scene, time_steps, surroundings); });
 }
 
-Experiment spinningBall() {
-    const Scene scene = spinningBallScene();
-    return demonstration("spinning_ball", 0.1, scene,
+Experiment spinningBall(SpinAxis axis) {
+    const bool horizontal = axis == SpinAxis::horizontal;
+    const Scene scene = spinningBallScene(horizontal ? Vec3::UnitX() : Vec3::UnitZ());
+    return demonstration(horizontal ? "spin-horizontal" : "spin-vertical", 0.1, scene,
                          [=](const Surroundings& surroundings) { return spinDown(scene, surroundings); });
 }
 

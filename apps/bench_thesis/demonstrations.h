@@ -17,8 +17,10 @@ Experiment cradle(int balls, int moving);
 /// "energy_error" (relative), sampled over the run, "moving" (balls that move, in the last sample), "steps".
 Experiment endlessCradle(int balls, int moving, std::int64_t time_steps);
 
+/// How a ball spins.
+enum class SpinAxis { horizontal, vertical };
 /// A ball that spins in the lowest layer of a pile of balls. Value: "spin" per simulation step [rad/s], "rest_step"
 /// (from which on it is asleep, or null), "lost".
-Experiment spinningBall();
+Experiment spinningBall(SpinAxis axis);
 
 }  // namespace cairn::thesis

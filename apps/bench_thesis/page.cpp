@@ -33,9 +33,14 @@ std::string base64(std::string_view data) {
 }
 
 /// "</script>" inside a string would end the element that the report stands in.
-std::string safeInScript(std::string text) {
-    for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) text.insert(at + 1, "\\");
-    return text;
+std::string safeInScript(std::string_view text) {
+    std::string safe;
+    safe.reserve(text.size());
+    for (const char c : text) {
+        if (c == '/' && !safe.empty() && safe.back() == '<') safe += '\\';
+        safe += c;
+    }
+    return safe;
 }
 
 /// The report with the pictures' bytes, each once.

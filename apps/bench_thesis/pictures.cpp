@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace cairn::thesis {
 
 namespace fs = std::filesystem;
@@ -17,7 +19,9 @@ Json Pictures::draw(const std::string& key) {
     try {
         files = drawAll(key);
     } catch (const IoError& error) {
-        warnings_.push_back(fmt::format("no pictures of {}: {}", key, error.what()));
+        // One reason is usually that of all.
+        const std::string warning = fmt::format("pictures are missing: {}", error.what());
+        if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
     }
     return drawn_[key] = files;
 }

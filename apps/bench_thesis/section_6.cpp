@@ -103,24 +103,37 @@ void addEndlessCradle(SectionResult& result, const Results& results, Extent exte
          most <= cradle_goal});
 }
 
+/// The step from which on the ball rests, as a time.
+std::optional<double> restTime(const Json& value) {
+    if (value.at("rest_step").is_null()) return {};
+    return value.at("rest_step").get<double>() / simulation_steps_per_second;
+}
+
 void addSpin(SectionResult& result, const Results& results) {
-    const Json& value = valueOf(results, "spinning_ball");
-    const std::vector<double> spin = value.at("spin");
-    std::optional<double> rest;
-    if (!value.at("rest_step").is_null()) rest = value.at("rest_step").get<double>() / simulation_steps_per_second;
-    result.entries.push_back({"5.6/spin/rest",
-                              "spinning ball in a pile: friction brings it to rest after",
+    const Json& rolling = valueOf(results, "spin-horizontal");
+    const Json& turning = valueOf(results, "spin-vertical");
+    result.entries.push_back({"5.6/spin/horizontal",
+                              "spinning ball in a pile, horizontal axis: rests after",
                               "s",
                               {},
-                              rest,
-                              "thesis: it stops and comes to rest"});
+                              restTime(rolling),
+                              "thesis: friction slows the ball down until it comes to rest"});
+    result.entries.push_back({"5.6/spin/vertical",
+                              "spinning ball in a pile, vertical axis: rests after",
+                              "s",
+                              {},
+                              restTime(turning),
+                              restTime(turning) ? ""
+                                                : "it does not: sleeping balls above do not press on it, and a "
+                                                  "point contact below has no lever"});
     result.figures.push_back({"5.6/spin",
                               "",
                               "ball that spins below a pile, 20 rad/s at the start",
                               "simulation step (1/30 s)",
                               "angular speed [rad/s]",
-                              {{"middle ball", spin}}});
-    result.checks.push_back({"friction brings the spinning ball to rest", rest.has_value() && spin.back() == 0});
+                              {{"horizontal axis", rolling.at("spin")}, {"vertical axis", turning.at("spin")}}});
+    result.checks.push_back(
+        {"friction brings the spinning ball to rest", restTime(rolling).has_value() && rolling.at("spin").back() == 0});
 }
 
 }  // namespace
@@ -137,7 +150,9 @@ Section furtherCapabilities(const Plan& plan) {
         for (int moving = 1; moving < balls; ++moving) section.experiments.push_back(cradle(balls, moving));
     }
     section.experiments.push_back(endlessCradle(endless_balls, endless_moving, endlessSteps(plan.extent)));
-    section.experiments.push_back(spinningBall());
+    for (const SpinAxis axis : {SpinAxis::horizontal, SpinAxis::vertical}) {
+        section.experiments.push_back(spinningBall(axis));
+    }
     section.evaluate = [extent = plan.extent](const Results& results) {
         SectionResult result;
         addCatapults(result, results);
