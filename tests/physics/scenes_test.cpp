@@ -1,0 +1,113 @@
+/// What the thesis's pictures show and what a user of the built-in scenes relies on.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cairn/scene.h"
+
+namespace cairn {
+namespace {
+
+/// Largest distance of a dynamic body from where it began [m].
+double drift(const SceneRun& run) {
+    double largest = 0;
+    for (std::size_t i = 0; i < run.ids().size(); ++i) {
+        if (run.scene().bodies[i].fixed) continue;
+        largest = std::max(largest, (run.world().pose(run.ids()[i]).position - run.scene().bodies[i].position).norm());
+    }
+    return largest;
+}
+
+void runFor(SceneRun& run, double seconds) {
+    while (run.world().time() < seconds) run.step();
+}
+
+class Standing : public testing::TestWithParam<const char*> {};
+
+TEST_P(Standing, StaysWithinATenthOfAMillimetreForAMinute) {
+    const Scene scene = builtInScene(GetParam());
+    SceneRun run(scene, settingsFor(scene));
+    runFor(run, 60);
+    EXPECT_LT(drift(run), 1e-4);
+    EXPECT_EQ(run.world().statistics().asleep, static_cast<std::int64_t>(scene.bodies.size()) - 1);
+}
+
+TEST_P(Standing, StandsAwakeWithoutSinkingBelowTheThreshold) {
+    const Scene scene = builtInScene(GetParam());
+    Settings settings = settingsFor(scene);
+    settings.sleep.sleeping = false;
+    SceneRun run(scene, settings);
+    double overlap = 0;
+    while (run.world().time() < 6) {
+        run.step();
+        overlap = std::max(overlap, run.world().statistics().largest_overlap);
+    }
+    EXPECT_LT(drift(run), 0.02);
+    EXPECT_LE(overlap, settings.correction.penetration_threshold + 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Stacks, Standing, testing::Values("tower:10", "wall:10"), [](const auto& param) {
+    return std::string(param.param).substr(0, std::string(param.param).find(':'));
+});
+
+class Scenes : public testing::TestWithParam<const char*> {};
+
+TEST_P(Scenes, EndWithNothingLostAndOverlapsWithinAMillimetreOfTheThreshold) {
+    const Scene scene = builtInScene(GetParam());
+    const Settings settings = settingsFor(scene);
+    SceneRun run(scene, settings);
+    runFor(run, scene.duration);
+    EXPECT_TRUE(run.world().faults().empty());
+    EXPECT_LE(run.world().statistics().largest_overlap, settings.correction.penetration_threshold + 1e-3);
+    for (const BodyId id : run.ids()) {
+        if (!run.world().isFixed(id)) {
+            EXPECT_GT(run.world().pose(id).position.z(), 0.03);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfTheThesis, Scenes, testing::Values("stacks5", "well324", "cage384"),
+                         [](const auto& param) { return std::string(param.param); });
+
+TEST(Bullet, GoesThroughAllWallsAndLowerPartsStayStanding) {
+    const Scene scene = builtInScene("stacks5");
+    SceneRun run(scene, settingsFor(scene));
+    runFor(run, scene.duration);
+    double farthest_wall = 0;
+    for (const SceneBody& body : scene.bodies) {
+        if (!body.fixed) farthest_wall = std::max(farthest_wall, body.position.x());
+    }
+    EXPECT_GT(run.world().pose(run.ids().back()).position.x(), farthest_wall + 1);
+    const auto standing = std::ranges::count_if(
+        run.ids(), [&](BodyId id) { return !run.world().isFixed(id) && run.world().pose(id).position.z() > 0.14; });
+    EXPECT_GT(standing, 10);
+}
+
+TEST(Well, KeepsAPileOfBalls) {
+    const Scene scene = builtInScene("well324");
+    SceneRun run(scene, settingsFor(scene));
+    runFor(run, scene.duration);
+    const auto inside = std::ranges::count_if(run.ids(), [&](BodyId id) {
+        const Vec3 p = run.world().pose(id).position;
+        return !run.world().isFixed(id) && std::abs(p.x()) < 0.5 && std::abs(p.y()) < 0.5;
+    });
+    EXPECT_GT(inside, 60);
+}
+
+TEST(Cage, BodiesComeToRestAndFallAsleep) {
+    const Scene scene = builtInScene("cage384");
+    SceneRun run(scene, settingsFor(scene));
+    runFor(run, scene.duration);
+    EXPECT_GT(run.world().statistics().asleep, 250);
+    for (const BodyId id : run.ids()) {
+        if (run.world().isFixed(id)) continue;
+        const Vec3 p = run.world().pose(id).position;
+        EXPECT_LT(std::abs(p.x()), 1.725);
+        EXPECT_LT(std::abs(p.y()), 1.725);
+        EXPECT_LT(p.z(), 2.65);
+    }
+}
+
+}  // namespace
+}  // namespace cairn
