@@ -30,15 +30,15 @@ enum class EventKind : std::uint8_t {
 
 /// One event of a step.
 struct Event {
-    EventKind kind = EventKind::contact_begun;
-    WakeReason reason = WakeReason::none;  ///< of EventKind::woke
-    BodyId a{};                            ///< the body; of contacts the one with the smaller index
-    BodyId b{};                            ///< the other body of a contact
-    std::uint32_t contacts = 0;            ///< contact points of the two bodies in this step
-    Vec3 point = Vec3::Zero();             ///< the deepest of them [m, W]
-    Vec3 normal = Vec3::Zero();            ///< of that point: unit, from B to A, W
-    double distance = 0;                   ///< of that point along the normal [m]; negative = overlap
-    Vec3 impulse = Vec3::Zero();           ///< sum that A received in the step [N·s, W]; B received the opposite
+    EventKind kind = EventKind::contact_begun;  ///< what happened
+    WakeReason reason = WakeReason::none;       ///< of EventKind::woke
+    BodyId a{};                                 ///< the body; of contacts the one with the smaller index
+    BodyId b{};                                 ///< the other body of a contact
+    std::uint32_t contacts = 0;                 ///< contact points of the two bodies in this step
+    Vec3 point = Vec3::Zero();                  ///< the deepest of them [m, W]
+    Vec3 normal = Vec3::Zero();                 ///< of that point: unit, from B to A, W
+    double distance = 0;                        ///< of that point along the normal [m]; negative = overlap
+    Vec3 impulse = Vec3::Zero();                ///< sum that A received in the step [N·s, W]; B received the opposite
 };
 
 /// Which events a world collects; each level has those before it.

@@ -47,8 +47,10 @@ class Includes(Tree):
 
     def test_public_headers_and_programs_may_not_use_rooms(self):
         self.put("include/cairn/a.h", '#include "math/m.h"\n')
-        self.put("apps/cairn/main.cpp", '#include "own.h"\n#include "cairn/a.h"\n#include "math/m.h"\n')
+        self.put("apps/cairn/main.cpp", '#include "own.h"\n#include "cairn/a.h"\n#include "math/m.h"\n'
+                                      '#include "view/v.h"\n#include "made.inc"\n')
         self.put("apps/cairn/own.h", "")
+        self.put("apps/view/v.h", "")
         self.finds(includes, "apps/cairn/main.cpp:3", "include/cairn/a.h:1")
 
     def test_an_unlisted_room_is_found(self):

@@ -1,5 +1,5 @@
 """Includes point one way: a room uses the public headers, itself and the rooms above it (CAIRN_ROOMS in CMakeLists.txt);
-public headers use only each other; programs use only the public headers, their own files and the viewer's library."""
+public headers use only each other; programs use only the public headers, their own files and the libraries of apps."""
 
 import re
 from pathlib import Path
@@ -18,7 +18,7 @@ def rooms(root: Path) -> list[str]:
 def _allowed(root: Path, path: Path, order: list[str]) -> set[str]:
     part = path.relative_to(root).parts
     if part[0] == "apps":
-        return {"cairn", "view"}
+        return {"cairn", *(p.name for p in (root / "apps").iterdir() if p.is_dir())}
     if part[0] != "src" or part[1] not in order:
         return {"cairn"}
     return {"cairn", *order[: order.index(part[1]) + 1]}
@@ -35,8 +35,9 @@ def check(root: Path) -> list[str]:
             if not match:
                 continue
             target = match.group(1)
-            own = path.relative_to(root).parts[0] in ("apps", "examples") and (path.parent / target).is_file()
-            if own and "/" not in target:
+            # A program's files lie beside it, or are made by its build (.inc).
+            own = (path.parent / target).is_file() or target.endswith(".inc")
+            if own and "/" not in target and path.relative_to(root).parts[0] in ("apps", "examples"):
                 continue
             if target.split("/")[0] not in allowed or "/" not in target or ".." in target:
                 problems.append(f'{path.relative_to(root)}:{number}: may not include "{target}"; '
