@@ -133,10 +133,10 @@ export async function decodeClip(compressed: Blob): Promise<Clip> {
   const n = header.bodies.length;
   const times = toNumbers(take());
   const flags = take();
-  const positions = undelta(take(), header.frames, 3 * n, header.positionUnit, 2);
-  const orientations = undelta(take(), header.frames, 4 * n, header.orientationUnit, 1);
+  const positions = undelta(take(), header.frames, n, 3, header.positionUnit, 2);
+  const orientations = undelta(take(), header.frames, n, 4, header.orientationUnit, 1);
   normalise(orientations);
-  const velocities = undelta(take(), header.frames, 3 * n, header.velocityUnit, 1);
+  const velocities = undelta(take(), header.frames, n, 3, header.velocityUnit, 1);
   return new Clip(header, times, flags, positions, orientations, velocities, toNumbers(take()));
 }
 
@@ -144,24 +144,30 @@ function toNumbers(bytes: Uint8Array): Float64Array {
   return new Float64Array(bytes.slice().buffer);
 }
 
-/** Undoes zigzag varints of the differences to the prediction: the last row (order 1), or the line through two (2). */
-function undelta(bytes: Uint8Array, rows: number, width: number, unit: number, order: 1 | 2): Float32Array {
+/**
+ * Undoes zigzag varints of the differences to the prediction: the last row (order 1), or the line through two (2).
+ * A row holds the first component of all bodies, then the second, and so on.
+ */
+function undelta(bytes: Uint8Array, rows: number, bodies: number, components: number, unit: number, order: 1 | 2): Float32Array {
+  const width = bodies * components;
   const out = new Float32Array(rows * width);
   let previous = new Float64Array(width), before = new Float64Array(width);
   let at = 0;
   for (let row = 0; row < rows; row++) {
     const current = before;
-    for (let i = 0; i < width; i++) {
-      let byte = bytes[at++];
-      let zigzag = byte & 127;
-      for (let scale = 128; byte & 128; scale *= 128) {
-        byte = bytes[at++];
-        zigzag += (byte & 127) * scale;
+    for (let k = 0; k < components; k++) {
+      for (let i = k; i < width; i += components) {
+        let byte = bytes[at++];
+        let zigzag = byte & 127;
+        for (let scale = 128; byte & 128; scale *= 128) {
+          byte = bytes[at++];
+          zigzag += (byte & 127) * scale;
+        }
+        const difference = zigzag % 2 === 0 ? zigzag / 2 : -(zigzag + 1) / 2;
+        const predicted = order === 2 && row > 1 ? 2 * previous[i] - before[i] : previous[i];
+        current[i] = predicted + difference;
+        out[row * width + i] = current[i] * unit;
       }
-      const difference = zigzag % 2 === 0 ? zigzag / 2 : -(zigzag + 1) / 2;
-      const predicted = order === 2 && row > 1 ? 2 * previous[i] - before[i] : previous[i];
-      current[i] = predicted + difference;
-      out[row * width + i] = current[i] * unit;
     }
     before = previous;
     previous = current;

@@ -14,7 +14,6 @@ export type Command = { do: string } & Record<string, unknown>;
 export class Connection {
   private socket: WebSocket | null = null;
   private nextId = 1;
-  private readonly waiting = new Map<number, (message: TextMessage) => void>();
   private retryDelay = 500;
   private ended = false;
 
@@ -29,9 +28,9 @@ export class Connection {
     return id;
   }
 
-  /** Sends a command and waits for its answer. */
-  ask(command: Command): Promise<TextMessage> {
-    return new Promise((resolve) => this.waiting.set(this.send(command), resolve));
+  /** Tells that a frame was drawn: the server sends only as many as the page can draw. */
+  askForFrame(): void {
+    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send('{"do":"next"}');
   }
 
   sendBytes(bytes: ArrayBuffer): void {
@@ -53,7 +52,6 @@ export class Connection {
     socket.onmessage = (event) => this.receive(event.data);
     socket.onclose = () => {
       this.listener.onConnected(false);
-      this.waiting.clear();
       if (this.ended) return;
       setTimeout(() => this.open(), this.retryDelay);
       this.retryDelay = Math.min(5000, this.retryDelay * 1.6);
@@ -68,12 +66,7 @@ export class Connection {
       if (kind === sampleKind) this.listener.onSamples(decodeSamples(data));
       return;
     }
-    const message = JSON.parse(String(data)) as TextMessage;
-    if ((message.type === 'done' || message.type === 'error') && message.id !== undefined) {
-      this.waiting.get(message.id)?.(message);
-      this.waiting.delete(message.id);
-    }
-    this.listener.onText(message);
+    this.listener.onText(JSON.parse(String(data)) as TextMessage);
   }
 }
 

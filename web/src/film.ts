@@ -5,7 +5,10 @@ import { defaultOptions } from './model';
 import type { FilmOrder } from './protocol';
 import { Stage } from './view/stage';
 
-export async function makeFilm(root: HTMLElement, clip: Clip, order: FilmOrder, connection: Connection): Promise<void> {
+/** @param taken waits until the last picture was taken */
+export async function makeFilm(
+  root: HTMLElement, clip: Clip, order: FilmOrder, connection: Connection, taken: () => Promise<void>,
+): Promise<void> {
   const holder = document.createElement('main');
   holder.style.cssText = `position:fixed;left:0;top:0;width:${order.width}px;height:${order.height}px`;
   root.append(holder);
@@ -21,9 +24,8 @@ export async function makeFilm(root: HTMLElement, clip: Clip, order: FilmOrder, 
     panel.setFrame(clip.frameAt(time), defaultOptions);
     stage.draw();
     const blob = await stage.toBlob(`image/${order.format}`, 0.93);
+    const next = taken();
     connection.sendBytes(await blob.arrayBuffer());
-    // One picture at a time: the next one is drawn when this one was taken.
-    const answer = await connection.ask({ do: 'picture-sent' });
-    if (answer.type === 'error') return;
+    await next;
   }
 }

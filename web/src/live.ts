@@ -21,6 +21,7 @@ export class Live implements Mode {
   samples: Sample[] = [];
   frames = 0;
   private latest: Frame | null = null;
+  private undrawn = 0;
   private framed = false;
   private lastFollowed: string | null = null;
   private readonly connection: Connection;
@@ -72,13 +73,14 @@ export class Live implements Mode {
         if (this.state) this.settings.show(this.state);
         this.showScene();
         break;
-      case 'done': break;
+      default: break;
     }
   }
 
   onFrame(frame: Frame): void {
     this.latest = frame;
     this.frames++;
+    this.undrawn++;
   }
 
   onSamples(samples: Sample[]): void {
@@ -89,6 +91,7 @@ export class Live implements Mode {
 
   // --- what the page asks of it ---
   advance(): void {
+    for (; this.undrawn > 0; this.undrawn--) this.connection.askForFrame();
     if (!this.latest || !this.roster) return;
     const frame = this.latest;
     this.latest = null;

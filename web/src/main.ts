@@ -32,10 +32,13 @@ function showReplay(app: App, clips: Clip[], names: string[]): void {
 function serve(): void {
   let app: App | null = null;
   let live: Live | null = null;
+  let onTaken: (() => void) | null = null;
   const waiting: TextMessage[] = [];
   const begin = async (hello: Hello): Promise<void> => {
     if (hello.mode === 'film') {
-      await makeFilm(root, await fetchClip(0), hello.film!, connection);
+      const taken = (): Promise<void> => new Promise((resolve) => { onTaken = resolve; });
+      await makeFilm(root, await fetchClip(0), hello.film!, connection, taken).catch((error: unknown) =>
+        connection.send({ do: 'failed', text: String(error) }));
       return;
     }
     app = new App(root);
@@ -51,7 +54,8 @@ function serve(): void {
   };
   const connection = new Connection({
     onText: (message) => {
-      if (message.type === 'hello' && !app) begin(message).catch(fail);
+      if (message.type === 'next-picture') onTaken?.();
+      else if (message.type === 'hello' && !app) begin(message).catch(fail);
       else if (live) live.onText(message);
       else waiting.push(message);
     },

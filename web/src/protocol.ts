@@ -100,7 +100,9 @@ export interface Selection {
 export interface ErrorMessage { type: 'error'; text: string; id?: number }
 export interface DoneMessage { type: 'done'; id: number; body?: { slot: number; generation: number } }
 
-export type TextMessage = Hello | WorldMessage | BodiesMessage | State | Selection | ErrorMessage | DoneMessage;
+export interface NextPicture { type: 'next-picture' }
+
+export type TextMessage = NextPicture | Hello | WorldMessage | BodiesMessage | State | Selection | ErrorMessage | DoneMessage;
 
 export const frameKind = 1;
 export const sampleKind = 2;

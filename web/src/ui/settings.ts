@@ -97,6 +97,9 @@ export class SettingsPanel {
 
 function rangeOf(field: FieldInfo): string {
   if (field.kind !== 'whole' && field.kind !== 'number') return '';
-  const from = field.minimum === null ? '…' : significant(field.minimum);
+  if (field.minimum !== null && field.minimum > 0 && field.minimum < 1e-300) {
+    return `above 0${field.maximum === null || field.maximum > 1e15 ? '' : `, up to ${significant(field.maximum)}`}`;
+  }
+  const from = field.minimum === null ? '−∞' : significant(field.minimum);
   return `${from} to ${field.maximum === null || field.maximum > 1e15 ? '∞' : significant(field.maximum)}`;
 }

@@ -104,24 +104,37 @@ export class WorldPanel {
   }
 }
 
+/** Part of the bodies that the first picture shows: a bullet far away must not make the walls small. */
+const shownPart = 0.96;
+
 /** Where the bodies are that can move (or, without any, the fixed ones), and how large one of them is. */
 export function extentOf(roster: Roster, frame: Frame): Extent {
   for (const wanted of [present, present | fixed]) {
-    const lower = new Vector3(Infinity, Infinity, Infinity), upper = new Vector3(-Infinity, -Infinity, -Infinity);
-    let sizes = 0, count = 0;
-    for (const body of roster.bodies.values()) {
-      const { shape, slot } = body;
+    const points: { p: Vector3; size: number; far: number }[] = [];
+    for (const { shape, slot } of roster.bodies.values()) {
       if (shape.type === 'plane' || slot >= frame.slots || (frame.flags[slot] & (present | fixed)) !== wanted) continue;
-      const p = new Vector3().fromArray(frame.position, 3 * slot);
       const size = shape.type === 'box' ? Math.max(...shape.size) : 2 * shape.radius + (shape.type === 'capsule' ? shape.length : 0);
+      points.push({ p: new Vector3().fromArray(frame.position, 3 * slot), size, far: 0 });
+    }
+    if (points.length === 0) continue;
+    const middle = new Vector3(...[0, 1, 2].map((k) => median(points.map((point) => point.p.getComponent(k)))));
+    for (const point of points) point.far = point.p.distanceTo(middle);
+    points.sort((a, b) => a.far - b.far);
+    const shown = points.length < 25 ? points : points.slice(0, Math.ceil(shownPart * points.length));
+    const lower = new Vector3(Infinity, Infinity, Infinity), upper = new Vector3(-Infinity, -Infinity, -Infinity);
+    let sizes = 0;
+    for (const { p, size } of shown) {
       lower.min(p.clone().subScalar(size / 2));
       upper.max(p.clone().addScalar(size / 2));
       sizes += size;
-      count++;
     }
-    if (count === 0) continue;
     const centre = lower.clone().add(upper).multiplyScalar(0.5);
-    return { centre, radius: Math.max(0.5 * lower.distanceTo(upper), 0.1), size: sizes / count };
+    return { centre, radius: Math.max(0.5 * lower.distanceTo(upper), 0.1), size: sizes / shown.length };
   }
   return { centre: new Vector3(0, 0, 0.5), radius: 2, size: 0.2 };
+}
+
+function median(values: number[]): number {
+  values.sort((a, b) => a - b);
+  return values[values.length >> 1];
 }

@@ -1,0 +1,30 @@
+/// @file What 'cairn export' makes with the viewer: pages, pictures and films.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "cairn/recording.h"
+
+namespace cairn::cli {
+
+/// What the command line asks for; empty names are not asked for.
+struct ViewExports {
+    std::string html;
+    std::string png;
+    std::string mp4;
+    double time = -1;  ///< of the picture [s]; below 0 = the end
+    std::vector<int> size = {1280, 720};
+    double speed = 1;
+    std::vector<double> camera;  ///< empty = chosen so that everything is seen
+    std::string theme = "light";
+};
+
+/// Adds --html, --png and --mp4 to the formats, and what shapes them to the command. @param exports must outlive it
+void addViewExports(CLI::App& command, CLI::Option_group& formats, ViewExports& exports);
+
+/// Writes what is asked for. @throws InputError, IoError
+void writeViewExports(const RecordingReader& recording, const ViewExports& exports);
+
+}  // namespace cairn::cli

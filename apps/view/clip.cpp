@@ -1,0 +1,197 @@
+#include "clip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "describe.h"
+#include "gzip.h"
+#include "samples.h"
+#include "wire.h"
+
+namespace cairn::view {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::uint32_t clip_version = 1;
+constexpr std::uint8_t flag_present = 1;
+constexpr std::uint8_t flag_asleep = 2;
+constexpr std::uint8_t flag_fixed = 4;
+
+/// Larger numbers would not survive JavaScript's arithmetic; bodies so far away are not seen.
+constexpr double largest_whole = 1e14;
+
+/// Whole numbers, each written as the difference to what the last rows predict, in as few bytes as it needs.
+class DeltaStream {
+  public:
+    enum class Prediction { last, line };
+
+    DeltaStream(std::size_t width, double unit, Prediction prediction)
+        : unit_(unit), prediction_(prediction), last_(width), before_(width) {}
+
+    void put(std::size_t column, double value) {
+        const double whole = std::isfinite(value) ? std::round(value / unit_) : 0;
+        next(column, static_cast<std::int64_t>(std::clamp(whole, -largest_whole, largest_whole)));
+    }
+    /// The value of the last row once more.
+    void repeat(std::size_t column) { next(column, last_[column]); }
+    /// The present value of a column in the last row.
+    double last(std::size_t column) const { return static_cast<double>(last_[column]) * unit_; }
+    void endRow() {
+        std::swap(last_, before_);
+        ++rows_;
+    }
+    std::string take() { return bytes_.take(); }
+
+  private:
+    /// Puts the value into the row before the last, which nobody needs any more.
+    void next(std::size_t column, std::int64_t value) {
+        std::int64_t predicted = last_[column];
+        if (prediction_ == Prediction::line && rows_ > 1) predicted += last_[column] - before_[column];
+        before_[column] = value;
+        varint(value - predicted);
+    }
+
+    void varint(std::int64_t difference) {
+        auto zigzag = (static_cast<std::uint64_t>(difference) << 1) ^ static_cast<std::uint64_t>(difference >> 63);
+        while (zigzag > 127) {
+            bytes_.put(static_cast<std::uint8_t>(zigzag | 128));
+            zigzag >>= 7;
+        }
+        bytes_.put(static_cast<std::uint8_t>(zigzag));
+    }
+
+    double unit_;
+    Prediction prediction_;
+    std::vector<std::int64_t> last_;
+    std::vector<std::int64_t> before_;
+    std::size_t rows_ = 0;
+    ByteWriter bytes_;
+};
+
+/// The streams of a clip.
+class ClipWriter {
+  public:
+    explicit ClipWriter(const Scene& scene)
+        : scene_(scene),
+          positions_(3 * scene.bodies.size(), ClipUnits::position, DeltaStream::Prediction::line),
+          orientations_(4 * scene.bodies.size(), ClipUnits::orientation, DeltaStream::Prediction::last),
+          velocities_(3 * scene.bodies.size(), ClipUnits::velocity, DeltaStream::Prediction::last) {}
+
+    void put(const Frame& frame) {
+        times_.put(frame.time);
+        const std::size_t n = scene_.bodies.size();
+        // Component by component: equal ones stand together and compress better.
+        for (int k = 0; k < 3; ++k) putVectors(frame, positions_, frame.position, k);
+        for (int k = 0; k < 3; ++k) putVectors(frame, velocities_, frame.linear_velocity, k);
+        putOrientations(frame);
+        for (DeltaStream* stream : {&positions_, &orientations_, &velocities_}) stream->endRow();
+        for (std::size_t body = 0; body < n; ++body) {
+            flags_.put(static_cast<std::uint8_t>((isPresent(frame, body) ? flag_present : 0) |
+                                                 (frame.asleep[body] != 0 ? flag_asleep : 0) |
+                                                 (scene_.bodies[body].fixed ? flag_fixed : 0)));
+        }
+        std::vector<double> values;
+        appendSample({frame.time, frame.statistics, frame.kinetic_energy, frame.potential_energy}, values);
+        samples_.putAll(std::span<const double>(values));
+    }
+
+    std::string finish(const json& header) {
+        ByteWriter out;
+        const std::string head = header.dump(-1, ' ', false, json::error_handler_t::replace);
+        out.putText("CAIRNCLP");
+        out.put(clip_version);
+        out.put(static_cast<std::uint32_t>(head.size()));
+        out.putText(head);
+        for (const std::string& stream : {times_.take(), flags_.take(), positions_.take(), orientations_.take(),
+                                          velocities_.take(), samples_.take()}) {
+            out.put(static_cast<std::uint64_t>(stream.size()));
+            out.putText(stream);
+        }
+        return gzip(out.take());
+    }
+
+  private:
+    static bool isPresent(const Frame& frame, std::size_t body) { return frame.position[body].allFinite(); }
+
+    void putVectors(const Frame& frame, DeltaStream& stream, const std::vector<Vec3>& values, int k) {
+        for (std::size_t body = 0; body < values.size(); ++body) {
+            const std::size_t column = 3 * body + static_cast<std::size_t>(k);
+            if (isPresent(frame, body))
+                stream.put(column, values[body][k]);
+            else
+                stream.repeat(column);
+        }
+    }
+
+    /// q and −q are the same rotation: the one nearer to the last is taken.
+    double signOf(const Frame& frame, std::size_t body) const {
+        const Quat& q = frame.orientation[body];
+        double likeness = 0;
+        for (std::size_t k = 0; k < 4; ++k)
+            likeness += q.coeffs()[static_cast<int>(k)] * orientations_.last(4 * body + k);
+        return likeness < 0 ? -1 : 1;
+    }
+
+    void putOrientations(const Frame& frame) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            for (std::size_t body = 0; body < scene_.bodies.size(); ++body) {
+                const std::size_t column = 4 * body + k;
+                if (isPresent(frame, body)) {
+                    const double part = frame.orientation[body].coeffs()[static_cast<int>(k)];  // x, y, z, w
+                    orientations_.put(column, signOf(frame, body) * part);
+                } else {
+                    orientations_.repeat(column);
+                }
+            }
+        }
+    }
+
+    const Scene& scene_;
+    ByteWriter times_, flags_, samples_;
+    DeltaStream positions_, orientations_, velocities_;
+};
+
+json describeSceneBody(const SceneRun& run, std::size_t index) {
+    const Scene& scene = run.scene();
+    const SceneBody& body = scene.bodies[index];
+    const double mass = run.world().mass(run.ids()[index]);
+    std::size_t material = 0;
+    while (material + 1 < scene.materials.size() && scene.materials[material].name != body.material) ++material;
+    return {{"slot", index},        {"generation", 0},
+            {"name", body.name},    {"shape", toJson(body.shape)},
+            {"material", material}, {"mass", std::isfinite(mass) ? json(mass) : json(nullptr)}};
+}
+
+json makeHeader(const RecordingInfo& info) {
+    const SceneRun run(info.scene, settingsFor(info.scene));
+    json bodies = json::array();
+    for (std::size_t i = 0; i < info.scene.bodies.size(); ++i) bodies.push_back(describeSceneBody(run, i));
+    json settings = json::object();
+    for (const auto& [name, value] : info.settings) settings[name] = value;
+    return {{"title", info.scene.name},
+            {"version", info.version},
+            {"machine", info.machine},
+            {"settings", std::move(settings)},
+            {"materials", toJson(info.scene.materials)},
+            {"bodies", std::move(bodies)},
+            {"frames", info.frames},
+            {"stages", describeStages()},
+            {"sampleFields", sampleFields()},
+            {"positionUnit", ClipUnits::position},
+            {"orientationUnit", ClipUnits::orientation},
+            {"velocityUnit", ClipUnits::velocity}};
+}
+
+}  // namespace
+
+std::string makeClip(const RecordingReader& recording) {
+    const RecordingInfo& info = recording.info();
+    ClipWriter clip(info.scene);
+    for (std::size_t i = 0; i < info.frames; ++i) clip.put(recording.frame(i));
+    return clip.finish(makeHeader(info));
+}
+
+}  // namespace cairn::view
