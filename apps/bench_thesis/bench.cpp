@@ -204,7 +204,7 @@ BenchOutcome runBench(const BenchOptions& options) {
         if (!isMeasured(section, store)) continue;
         const SectionResult result = section.evaluate(store.results());
         Json json = toJson(section, result);
-        for (Json& row : json["pictures"]) row["files"] = pictures.draw(row.at("key"));
+        for (Json& row : json["pictures"]) row["files"] = pictures.draw(row.at("key"), row.at("camera"));
         for (std::string& text : brokenIn(section, result, options.extent)) outcome.broken.push_back(std::move(text));
         if (isSelected(section, options.only)) outcome.summary += summaryOf(json);
         report["sections"].push_back(std::move(json));

@@ -18,6 +18,13 @@ struct Position {
     std::string what;  ///< the measurement that runs
 };
 
+/// A picture to draw.
+struct Picture {
+    double time = 0;             ///< in the recording [s]
+    std::vector<double> camera;  ///< position and the point looked at [m]; empty = everything is seen
+    std::filesystem::path file;  ///< PNG
+};
+
 /// How a bench is run.
 struct BenchOptions {
     std::filesystem::path out;      ///< folder; made if it does not exist
@@ -26,8 +33,8 @@ struct BenchOptions {
     std::optional<double> rating;  ///< PassMark single-thread rating of this processor
     std::function<void(const Position&)> progress = [](const Position&) {};
     std::function<bool()> interrupted = [] { return false; };
-    /// Draws a recording at a time [s] into a PNG file, or throws IoError. None = no pictures.
-    std::function<void(const RecordingReader&, double, const std::filesystem::path&)> picture = {};
+    std::function<void(const RecordingReader&, const Picture&)> picture =
+        {};  ///< or throws IoError; none = no pictures
 };
 
 /// What came out.

@@ -129,7 +129,7 @@ Json spinDown(const Scene& scene, const Surroundings& surroundings) {
 }  // namespace
 
 Experiment catapult(const std::string& scene) {
-    SceneExperiment what{scene, builtInScene(scene), {}, 0.2, {0, 1, 1.4}};
+    SceneExperiment what{scene, builtInScene(scene), {}, 0.2, {0, 1, 1.2}};
     what.settings = settingsOf(what.scene);
     return demonstration(scene, what.weight, what.scene,
                          [what](const Surroundings& surroundings) { return throwLoad(what, surroundings); });

@@ -9,10 +9,7 @@ namespace {
 
 /// By entry, or by section and quantity ("5.1//average") for those that all scenes share.
 const std::map<std::string, std::string>& explanations() {
-    static const std::map<std::string, std::string> texts = {
-        {"5.1//total", "A newer processor; what goes beyond the ratio of the ratings is the program."},
-        {"5.1//average", "A newer processor; what goes beyond the ratio of the ratings is the program."},
-    };
+    static const std::map<std::string, std::string> texts = {};
     return texts;
 }
 
@@ -26,6 +23,7 @@ std::string withoutScene(const std::string& id) {
 }  // namespace
 
 std::string explanationOf(const Entry& entry) {
+    if (!entry.explanation.empty()) return entry.explanation;
     for (const std::string& key : {entry.id, withoutScene(entry.id)}) {
         const auto found = explanations().find(key);
         if (found != explanations().end()) return found->second;

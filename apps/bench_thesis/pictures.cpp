@@ -12,12 +12,12 @@ fs::path recordingOf(const fs::path& out, const std::string& key) {
     return out / "recordings" / (key + ".h5");
 }
 
-Json Pictures::draw(const std::string& key) {
+Json Pictures::draw(const std::string& key, const std::vector<double>& camera) {
     const auto known = drawn_.find(key);
     if (known != drawn_.end()) return known->second;
     Json files = Json::array();
     try {
-        files = drawAll(key);
+        files = drawAll(key, camera);
     } catch (const IoError& error) {
         // One reason is usually that of all.
         const std::string warning = fmt::format("pictures are missing: {}", error.what());
@@ -26,7 +26,7 @@ Json Pictures::draw(const std::string& key) {
     return drawn_[key] = files;
 }
 
-Json Pictures::drawAll(const std::string& key) {
+Json Pictures::drawAll(const std::string& key, const std::vector<double>& camera) {
     Json files = Json::array();
     if (!options_.picture) {
         if (warnings_.empty())
@@ -43,7 +43,7 @@ Json Pictures::drawAll(const std::string& key) {
         if (!fs::exists(whole) || fs::last_write_time(whole) < fs::last_write_time(recording)) {
             options_.progress({1, fmt::format("picture of {} at {:.2f} s", key, time)});
             if (options_.interrupted()) throw Interrupted{};
-            options_.picture(reader, time, whole);
+            options_.picture(reader, {time, camera, whole});
         }
         files.push_back({{"time", time}, {"file", file.string()}});
     }

@@ -7,17 +7,23 @@
 
 namespace cairn::thesis {
 
+/// A machine of the thesis.
+struct ThesisMachine {
+    std::string name;
+    int threads = 1;    ///< of the benchmarks on it
+    double rating = 0;  ///< single-thread rating of its processor (machine.h)
+};
+
 /// A scene of §5.1.
 struct ThesisScene {
     std::string name;  ///< of the built-in scene
     std::string title;
-    std::string machine;  ///< of the thesis
-    int threads = 2;      ///< in the thesis
-    double total_s = 0;   ///< Tables 2 and 3
-    double average_ms = 0;
+    ThesisMachine machine;
+    double total_s = 0;                ///< whole simulation, Tables 2 and 3 [s]
+    double average_ms = 0;             ///< of a simulation step, Tables 2 and 3 [ms]
     std::string figure;                ///< its graph
     std::string pictures;              ///< its pictures
-    double rating = 0;                 ///< single-thread rating of the thesis's processor
+    std::vector<double> camera = {};   ///< of its pictures: position and the point looked at [m]; empty = everything
     double weight = 1;                 ///< expected cost relative to stacks5
     std::vector<double> moments = {};  ///< start, middle and end [s]
 };

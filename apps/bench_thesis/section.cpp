@@ -56,7 +56,8 @@ Json toJson(const Section& section, const SectionResult& result) {
     for (const Entry& entry : result.entries) json["entries"].push_back(toJson(entry));
     for (const Figure& figure : result.figures) json["figures"].push_back(toJson(figure));
     for (const PictureRow& row : result.pictures) {
-        json["pictures"].push_back({{"source", row.source}, {"caption", row.caption}, {"key", row.key}});
+        json["pictures"].push_back(
+            {{"source", row.source}, {"caption", row.caption}, {"key", row.key}, {"camera", row.camera}});
     }
     for (const Goal& goal : result.goals) json["goals"].push_back({{"what", goal.what}, {"reached", goal.reached}});
     for (const Check& check : result.checks) json["checks"].push_back({{"what", check.what}, {"holds", check.holds}});

@@ -17,6 +17,7 @@ struct Entry {
     std::optional<double> thesis;  ///< none where the thesis gives no number
     std::optional<double> ours;    ///< none where it did not come out, such as a time of something that never happens
     std::string note;              ///< what else is to be known, may be empty
+    std::string explanation = {};  ///< of a difference; empty = that of explanations.cpp
 };
 
 /// One line of a figure.
@@ -49,9 +50,10 @@ struct Figure {
 
 /// A row of pictures, one for each moment; of several rows each has its caption.
 struct PictureRow {
-    std::string source;   ///< "Figure 27(a)"
-    std::string caption;  ///< scene and settings
-    std::string key;      ///< of the experiment whose moments are shown
+    std::string source;               ///< "Figure 27(a)"
+    std::string caption;              ///< scene and settings
+    std::string key;                  ///< of the experiment whose moments are shown
+    std::vector<double> camera = {};  ///< position and the point looked at [m]; empty = everything is seen
 };
 
 /// A number of the project's own aims.

@@ -10,18 +10,30 @@ namespace {
 
 constexpr double real_time_ms = 1000 / simulation_steps_per_second;
 
+/// The processor's part of a difference in time, and the rest. @param speedup over the thesis
+std::string explain(const ThesisScene& scene, const Plan& plan, double speedup) {
+    if (!plan.processor_rating) return fmt::format("{:.1f} times as fast, on a newer processor.", speedup);
+    const double factor = *plan.processor_rating / scene.machine.rating;
+    return fmt::format(
+        "{:.1f} times as fast, of which a core of this processor makes about {:.1f} and the program {:.1f}.", speedup,
+        factor, speedup / factor);
+}
+
 /// Tables 2 and 3: a scene's row, its figure and its pictures.
-void addScene(SectionResult& result, const ThesisScene& scene, const Series& series, const std::string& key) {
+void addScene(SectionResult& result, const ThesisScene& scene, const Plan& plan, const Series& series) {
+    const std::string key = keyOf(plainRun(scene.name, plan));
     const double average = sum(series.total_ms) / static_cast<double>(series.steps());
     const auto share = [&](const std::vector<double>& part) { return 100 * sum(part) / sum(series.total_ms); };
     const std::string id = "5.1/" + scene.name;
-    result.entries.push_back(
-        {id + "/total", rowText(scene, "whole simulation"), "s", scene.total_s, series.total_s,
-         fmt::format("thesis: {}, {} threads; ours: {:.0f} threads", scene.machine, scene.threads, series.threads)});
+    result.entries.push_back({id + "/total", rowText(scene, "whole simulation"), "s", scene.total_s, series.total_s,
+                              fmt::format("thesis: {}, {} threads; ours: {:.0f} threads", scene.machine.name,
+                                          scene.machine.threads, series.threads),
+                              explain(scene, plan, scene.total_s / series.total_s)});
     result.entries.push_back(
         {id + "/average", rowText(scene, "average simulation step"), "ms", scene.average_ms, average,
          fmt::format("{:.0f} % detection, {:.0f} % response; longest step {:.1f} ms", share(series.detection_ms),
-                     share(series.response_ms), largest(series.total_ms))});
+                     share(series.response_ms), largest(series.total_ms)),
+         explain(scene, plan, scene.average_ms / average)});
     result.figures.push_back(
         {id,
          scene.figure,
@@ -31,12 +43,12 @@ void addScene(SectionResult& result, const ThesisScene& scene, const Series& ser
          {{"whole step", series.total_ms}, {"response", series.response_ms}, {"detection", series.detection_ms}},
          {{fmt::format("thesis, average {} ms", scene.average_ms), scene.average_ms}}});
     if (scene.average_ms < real_time_ms) result.figures.back().references.push_back({"real time", real_time_ms});
-    result.pictures.push_back({scene.pictures, scene.name + ", performance settings", key});
+    result.pictures.push_back({scene.pictures, scene.name + ", performance settings", key, scene.camera});
 }
 
 void addGoal(SectionResult& result, const Plan& plan, const ThesisScene& scene, const Series& series) {
     if (!plan.processor_rating || plan.extent == Extent::quick) return;
-    const double factor = *plan.processor_rating / scene.rating;
+    const double factor = *plan.processor_rating / scene.machine.rating;
     const double speedup = scene.total_s / series.total_s;
     result.goals.push_back(
         {fmt::format("{}: faster than the thesis by the factor of the processor ({:.1f}); it is {:.1f}", scene.name,
@@ -59,9 +71,8 @@ Section generalPerformance(const Plan& plan) {
     section.evaluate = [plan](const Results& results) {
         SectionResult result;
         for (const ThesisScene& scene : thesisScenes()) {
-            const std::string key = keyOf(plainRun(scene.name, plan));
-            const Series series = seriesOf(results, key);
-            addScene(result, scene, series, key);
+            const Series series = seriesOf(results, keyOf(plainRun(scene.name, plan)));
+            addScene(result, scene, plan, series);
             addGoal(result, plan, scene, series);
             result.checks.push_back({scene.name + ": no body is lost", series.lost == 0});
         }

@@ -52,7 +52,7 @@ void addScene(SectionResult& result, const Published& thesis, const Plan& plan, 
     const BestStep response = bestStep(one.response_ms, several.response_ms, ratio_floor);
     const double share = 100 * sum(one.largest_batch) / sum(one.contacts);
     const std::string id = fmt::format("5.2/{}", scene.name);
-    const std::string threads = fmt::format("thesis: {} threads; ours: {:.0f}", scene.threads, several.threads);
+    const std::string threads = fmt::format("thesis: {} threads; ours: {:.0f}", scene.machine.threads, several.threads);
     result.entries.push_back({id + "/time_saved", rowText(scene, "time saved"), "%", thesis.time_saved,
                               100 * (1 - several.total_s / one.total_s), threads});
     result.entries.push_back({id + "/best_step", rowText(scene, "best step, speed-up"), "", thesis.best_step,
@@ -85,7 +85,7 @@ void addScene(SectionResult& result, const Published& thesis, const Plan& plan, 
     result.checks.push_back({fmt::format("{}: the last state is the same bit for bit with 1 and {:.0f} threads",
                                          scene.name, several.threads),
                              one.state_hash == several.state_hash});
-    if (plan.extent == Extent::full && scene.threads == 2) {
+    if (plan.extent == Extent::full && scene.machine.threads == 2) {
         result.goals.push_back(
             {fmt::format("{}: response alone on 2 threads at least {} in the best step; it is {:.2f}", scene.name,
                          response_goal, response.ratio),

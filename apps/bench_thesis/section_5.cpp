@@ -55,9 +55,10 @@ void addScene(SectionResult& result, const Published& thesis, const Plan& plan, 
                               {{fmt::format("thesis, accuracy, average {} ms", thesis.average_ms), thesis.average_ms},
                                {fmt::format("thesis, performance, average {} ms", scene.average_ms), scene.average_ms}},
                               Scale::logarithmic});
-    result.pictures.push_back({"Figure 35", scene.name + ", accuracy settings", keyOf(accurate(scene.name, plan))});
     result.pictures.push_back(
-        {scene.pictures, scene.name + ", performance settings", keyOf(plainRun(scene.name, plan))});
+        {"Figure 35", scene.name + ", accuracy settings", keyOf(accurate(scene.name, plan)), scene.camera});
+    result.pictures.push_back(
+        {scene.pictures, scene.name + ", performance settings", keyOf(plainRun(scene.name, plan)), scene.camera});
     result.checks.push_back({scene.name + ": accuracy costs more iterations", iterations > 1});
     result.checks.push_back({scene.name + ": no body is lost with the accuracy settings", exact.lost == 0});
 }
