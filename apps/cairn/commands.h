@@ -12,8 +12,9 @@ enum ExitCode : int { fine = 0, run_failed = 1, wrong_use = 2 };
 /// Adds a subcommand; its callback sets the exit code or throws InputError (wrong use) or IoError (failure).
 using AddCommand = void(CLI::App& app, int& exit_code);
 
-AddCommand addRun, addScenes, addInfo, addExport, addSettings;
+AddCommand addRun, addResume, addReplay, addScenes, addInfo, addExport, addSettings;
 
-inline constexpr std::array<AddCommand*, 5> all_commands = {addRun, addScenes, addInfo, addExport, addSettings};
+inline constexpr std::array<AddCommand*, 7> all_commands = {addRun,  addResume, addReplay,  addScenes,
+                                                            addInfo, addExport, addSettings};
 
 }  // namespace cairn::cli

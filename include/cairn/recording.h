@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct Frame {
     Statistics statistics;               ///< of the simulation step that led here
     double kinetic_energy = 0;           ///< [J]
     double potential_energy = 0;         ///< [J]
+    /// World::stateHash() after each time step of the simulation step that led here; empty = not recorded.
+    std::vector<std::uint64_t> step_hashes;
 };
 
 /// Takes the present state of a run. @param statistics of the simulation step that led here
@@ -30,8 +33,10 @@ Frame captureFrame(const SceneRun& run, const Statistics& statistics);
 /// Writes a recording; what was appended can be read while it is written and after a crash.
 class RecordingWriter {
   public:
+    /// @param hashes_per_frame entries of Frame::step_hashes, so that the recording can be verified; 0 = none
     /// @throws IoError if the file cannot be written
-    RecordingWriter(const std::filesystem::path& file, const Scene& scene, const Settings& settings);
+    RecordingWriter(const std::filesystem::path& file, const Scene& scene, const Settings& settings,
+                    std::size_t hashes_per_frame = 0);
     ~RecordingWriter();
     RecordingWriter(const RecordingWriter&) = delete;
     RecordingWriter& operator=(const RecordingWriter&) = delete;
@@ -54,6 +59,7 @@ struct RecordingInfo {
     std::string machine;                                        ///< processor and operating system
     std::size_t frames = 0;
     std::size_t bodies = 0;
+    std::size_t hashes_per_frame = 0;  ///< 0 = recorded without hashes
 };
 
 /// Reads a recording.
@@ -72,6 +78,18 @@ class RecordingReader {
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+/// Where a simulation left its recording.
+struct RecordingDifference {
+    std::int64_t step = 0;            ///< the first time step that differs; without hashes the last one of its frame
+    std::optional<std::size_t> body;  ///< the first body of the scene that differs at the end of the frame, if one does
+    std::string what;                 ///< what was recorded and what came out now
+};
+
+/// Simulates a recording's scene again, with its settings, and compares every time step, or every frame of a recording
+/// without hashes, bit by bit. @param threads results do not depend on it
+/// @return the first difference, or none @throws InputError if it does not begin with the scene; IoError
+std::optional<RecordingDifference> verifyRecording(const RecordingReader& recording, std::int64_t threads = 1);
 
 /// One row per frame and body: frame,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,asleep. @throws IoError
 void exportCsv(const RecordingReader& recording, const std::filesystem::path& file);

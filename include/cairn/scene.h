@@ -145,6 +145,8 @@ class SceneRun {
     void step();
     /// One simulation step of 1/30 s. @return the sum of the statistics of its time steps
     Statistics simulationStep();
+    /// The same, noting World::stateHash() after each of its time steps.
+    Statistics simulationStep(std::vector<std::uint64_t>& hashes);
     /// Time steps of one simulation step.
     int stepsPerSimulationStep() const;
 

@@ -36,6 +36,10 @@ MaterialId MaterialTable::add(const Material& material) {
                 fmt::format("a material named '{}' exists already; give the new one another name", material.name));
         }
     }
+    if (materials_.size() >= most_materials) {
+        throw InputError(fmt::format("material '{}' is one too many; a world has at most {} materials", material.name,
+                                     most_materials));
+    }
     const std::size_t n = materials_.size();
     std::vector<Entry> grown((n + 1) * (n + 1));
     for (std::size_t a = 0; a < n; ++a) {

@@ -10,6 +10,9 @@
 
 namespace cairn {
 
+/// Their pair table grows with the square.
+inline constexpr std::size_t most_materials = 256;
+
 /// All materials of a world and a symmetric table of pair properties.
 class MaterialTable {
   public:

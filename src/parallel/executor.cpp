@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <vector>
+#include <mutex>
 
 #ifdef _OPENMP
 #include <omp.h>
 #else
 #include <thread>
+#include <vector>
 #endif
 
 namespace cairn {
@@ -40,37 +41,37 @@ void onThreads(int threads, const Work& work) {
 
 #endif
 
-/// Keeps the first exception of each thread; parallel regions must not leak exceptions.
-class Failures {
+/// Keeps the exception of the lowest thread; parallel regions must not leak exceptions. Takes no memory.
+class Failure {
   public:
-    explicit Failures(int threads) : failures_(static_cast<std::size_t>(threads)) {}
-
+    /// Runs a thread's whole share of a loop, which an exception ends.
     template <class Work>
     void guard(int thread, const Work& work) {
-        auto& failure = failures_[static_cast<std::size_t>(thread)];
-        if (failure) return;
         try {
             work();
         } catch (...) {
-            failure = std::current_exception();
+            const std::lock_guard lock(mutex_);
+            if (exception_ && thread_ < thread) return;
+            thread_ = thread;
+            exception_ = std::current_exception();
         }
     }
 
     void rethrow() const {
-        for (const auto& failure : failures_) {
-            if (failure) std::rethrow_exception(failure);
-        }
+        if (exception_) std::rethrow_exception(exception_);
     }
 
   private:
-    std::vector<std::exception_ptr> failures_;
+    std::mutex mutex_;
+    int thread_ = 0;
+    std::exception_ptr exception_;
 };
 
 }  // namespace
 
 Executor::Executor(int threads) : threads_(std::max(threads, 1)) {}
 
-void Executor::forBlocks(std::size_t count, const std::function<void(std::size_t, std::size_t, int)>& work,
+void Executor::forBlocks(std::size_t count, FunctionRef<void(std::size_t, std::size_t, int)> work,
                          std::size_t grain) const {
     if (count == 0) return;
     const std::size_t blocks = std::min(static_cast<std::size_t>(threads_), count / std::max<std::size_t>(grain, 1));
@@ -78,25 +79,27 @@ void Executor::forBlocks(std::size_t count, const std::function<void(std::size_t
         work(0, count, 0);
         return;
     }
-    Failures failures(threads_);
+    Failure failure;
     onThreads(static_cast<int>(blocks), [&](int t) {
         const auto block = static_cast<std::size_t>(t);
-        failures.guard(t, [&] { work(count * block / blocks, count * (block + 1) / blocks, t); });
+        failure.guard(t, [&] { work(count * block / blocks, count * (block + 1) / blocks, t); });
     });
-    failures.rethrow();
+    failure.rethrow();
 }
 
-void Executor::forEachDynamic(std::size_t count, const std::function<void(std::size_t, int)>& work) const {
+void Executor::forEachDynamic(std::size_t count, FunctionRef<void(std::size_t, int)> work) const {
     if (threads_ == 1 || count < 2) {
         for (std::size_t i = 0; i < count; ++i) work(i, 0);
         return;
     }
-    Failures failures(threads_);
+    Failure failure;
     std::atomic<std::size_t> next = 0;
     onThreads(threads_, [&](int t) {
-        for (std::size_t i = next++; i < count; i = next++) failures.guard(t, [&] { work(i, t); });
+        failure.guard(t, [&] {
+            for (std::size_t i = next++; i < count; i = next++) work(i, t);
+        });
     });
-    failures.rethrow();
+    failure.rethrow();
 }
 
 }  // namespace cairn

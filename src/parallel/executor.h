@@ -3,7 +3,8 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
+
+#include "parallel/function_ref.h"
 
 namespace cairn {
 
@@ -19,12 +20,12 @@ class Executor {
     /// Splits [0, count) into one contiguous block per thread ("static" of thesis §4), ascending with the thread.
     /// @param work called with (begin, end, thread), thread in [0, threads())
     /// @param grain fewest items worth a thread of their own: starting one costs about as much as 5 µs of work
-    void forBlocks(std::size_t count, const std::function<void(std::size_t, std::size_t, int)>& work,
+    void forBlocks(std::size_t count, FunctionRef<void(std::size_t, std::size_t, int)> work,
                    std::size_t grain = 512) const;
 
     /// Hands out the items of [0, count) one by one, in ascending order ("dynamic,1" of thesis §4).
     /// @param work called with (item, thread)
-    void forEachDynamic(std::size_t count, const std::function<void(std::size_t, int)>& work) const;
+    void forEachDynamic(std::size_t count, FunctionRef<void(std::size_t, int)> work) const;
 
   private:
     int threads_;

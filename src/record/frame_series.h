@@ -9,6 +9,11 @@
 
 namespace cairn::hdf5 {
 
+/// The hashes of a recording that has them: apart, since most have none.
+inline SeriesShape stepHashes(hsize_t per_frame) {
+    return {layout::step_hashes, "1", Element::integer, Storage::plain, {per_frame}};
+}
+
 /// @tparam Series SeriesWriter or SeriesReader
 template <typename Series>
 struct FrameSeries {

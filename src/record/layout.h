@@ -31,6 +31,7 @@ inline constexpr const char* angular_velocity = "frames/angular_velocity";
 inline constexpr const char* asleep = "frames/asleep";
 inline constexpr const char* kinetic_energy = "frames/kinetic_energy";
 inline constexpr const char* potential_energy = "frames/potential_energy";
+inline constexpr const char* step_hashes = "frames/step_hashes";  ///< only if it was asked for
 inline constexpr const char* statistics = "statistics";
 inline constexpr const char* stage_ms = "statistics/stage_ms";
 inline constexpr const char* stages_attribute =

@@ -8,6 +8,7 @@
 #include "record/attributes.h"
 #include "record/file_check.h"
 #include "record/frame_series.h"
+#include "record/recorded_settings.h"
 
 namespace cairn {
 
@@ -71,6 +72,7 @@ struct RecordingReader::Impl {
         info.settings = hdf5::readAttributes(
             hdf5::Group(H5Gopen2(file.get(), layout::settings, H5P_DEFAULT), path, "settings"), path);
         series.emplace(file, path, info.bodies);
+        openHashes();
         info.frames = countFrames();
         if (!state.closed) requireAllInFile();
         quaternions.resize(info.bodies);
@@ -79,7 +81,18 @@ struct RecordingReader::Impl {
     ~Impl() {
         const hdf5::QuietErrors quiet;
         series.reset();
+        hashes.reset();
         file.close();
+    }
+
+    /// Their number is that of the time steps in a frame.
+    void openHashes() {
+        if (H5Lexists(file.get(), layout::step_hashes, H5P_DEFAULT) <= 0) return;
+        const Settings settings = settingsOf(info);
+        const auto per_frame =
+            static_cast<hsize_t>(std::lround(settings.steps_per_second / simulation_steps_per_second));
+        hashes.emplace(file, path, hdf5::stepHashes(per_frame));
+        info.hashes_per_frame = per_frame;
     }
 
     /// Frames that were written to the end: those whose time, which is written last, is there.
@@ -89,6 +102,7 @@ struct RecordingReader::Impl {
         const auto end = std::find_if(times.begin(), times.end(), [](double t) { return std::isnan(t); });
         auto frames = static_cast<hsize_t>(end - times.begin());
         series->forEachButTime([&](const hdf5::SeriesReader& s) { frames = std::min(frames, s.frames()); });
+        if (hashes) frames = std::min(frames, hashes->frames());
         return frames;
     }
 
@@ -107,6 +121,7 @@ struct RecordingReader::Impl {
     hdf5::File file;
     RecordingInfo info;
     std::optional<hdf5::FrameSeries<hdf5::SeriesReader>> series;
+    std::optional<hdf5::SeriesReader> hashes;
     mutable std::vector<std::array<double, 4>> quaternions;  ///< w, x, y, z
 };
 
@@ -151,6 +166,10 @@ Frame RecordingReader::frame(std::size_t index) const {
     }
     for (std::size_t i = 0; i < layout::overlaps.size(); ++i) {
         series.overlaps[i].read(index, &(frame.statistics.*layout::overlaps[i].member));
+    }
+    if (impl.hashes) {
+        frame.step_hashes.resize(impl.info.hashes_per_frame);
+        impl.hashes->read(index, frame.step_hashes.data());
     }
     for (std::size_t i = 0; i < bodies; ++i) {
         const std::array<double, 4>& q = impl.quaternions[i];

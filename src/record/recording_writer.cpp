@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <numeric>
@@ -63,11 +64,17 @@ void refuseWrongSize(std::size_t size, std::size_t bodies, const char* what) {
 }  // namespace
 
 struct RecordingWriter::Impl {
-    Impl(const std::filesystem::path& file_path, const Scene& scene, const Settings& settings)
-        : path(file_path), bodies(scene.bodies.size()), driver(path), file(createFile(path, driver, writes)) {
+    Impl(const std::filesystem::path& file_path, const Scene& scene, const Settings& settings,
+         std::size_t hashes_per_frame)
+        : path(file_path),
+          bodies(scene.bodies.size()),
+          hash_row(hashes_per_frame),
+          driver(path),
+          file(createFile(path, driver, writes)) {
         requireWritten(file ? "cannot be written" : "cannot be created");
         writeMetadata(file, path, scene, settings);
         series.emplace(file, path, bodies);
+        if (!hash_row.empty()) hashes.emplace(file, path, hdf5::stepHashes(hash_row.size()));
         checked(H5Fstart_swmr_write(file.get()), path, "cannot be made readable while it is written");
         requireWritten("cannot be written");
         quaternions.resize(bodies);
@@ -76,6 +83,7 @@ struct RecordingWriter::Impl {
     ~Impl() {
         const hdf5::QuietErrors quiet;
         series.reset();
+        hashes.reset();
         file.close();
     }
 
@@ -98,6 +106,11 @@ struct RecordingWriter::Impl {
         for (std::size_t i = 0; i < layout::overlaps.size(); ++i) {
             series->overlaps[i].append(frames, &(frame.statistics.*layout::overlaps[i].member));
         }
+        if (hashes) {
+            // The initial state has no time step behind it.
+            std::copy(frame.step_hashes.begin(), frame.step_hashes.end(), hash_row.begin());
+            hashes->append(frames, hash_row.data());
+        }
         checked(H5Fflush(file.get(), H5F_SCOPE_LOCAL), path, "cannot be written");
         series->time.append(frames, &frame.time);
         checked(H5Fflush(file.get(), H5F_SCOPE_LOCAL), path, "cannot be written");
@@ -112,18 +125,21 @@ struct RecordingWriter::Impl {
 
     std::filesystem::path path;
     std::size_t bodies;
+    std::vector<std::uint64_t> hash_row;  ///< [hashes per frame]
     hdf5::WriteState writes;
     hdf5::FileDriver driver;
     hdf5::File file;
     std::optional<hdf5::FrameSeries<hdf5::SeriesWriter>> series;
+    std::optional<hdf5::SeriesWriter> hashes;
     std::vector<std::array<double, 4>> quaternions;  ///< w, x, y, z
     hsize_t frames = 0;
     bool failed = false;
 };
 
-RecordingWriter::RecordingWriter(const std::filesystem::path& file, const Scene& scene, const Settings& settings) {
+RecordingWriter::RecordingWriter(const std::filesystem::path& file, const Scene& scene, const Settings& settings,
+                                 std::size_t hashes_per_frame) {
     const hdf5::QuietErrors quiet;
-    impl_ = std::make_unique<Impl>(file, scene, settings);
+    impl_ = std::make_unique<Impl>(file, scene, settings, hashes_per_frame);
 }
 
 RecordingWriter::~RecordingWriter() = default;
@@ -136,6 +152,10 @@ void RecordingWriter::append(const Frame& frame) {
     refuseWrongSize(frame.linear_velocity.size(), impl.bodies, "linear_velocity");
     refuseWrongSize(frame.angular_velocity.size(), impl.bodies, "angular_velocity");
     refuseWrongSize(frame.asleep.size(), impl.bodies, "asleep");
+    if (!frame.step_hashes.empty() && frame.step_hashes.size() != impl.hash_row.size()) {
+        throw InputError(fmt::format("the frame has {} step_hashes, but the recording was begun for {}",
+                                     frame.step_hashes.size(), impl.hash_row.size()));
+    }
     if (!impl.file) throw InputError(fmt::format("{}: the recording is closed", impl.path.string()));
     if (impl.failed) throw IoError(fmt::format("{}: not written, as an earlier frame failed", impl.path.string()));
     const hdf5::QuietErrors quiet;
@@ -151,6 +171,7 @@ void RecordingWriter::close() {
     Impl& impl = *impl_;
     const hdf5::QuietErrors quiet;
     impl.series.reset();
+    impl.hashes.reset();
     checked(impl.file.close(), impl.path, "cannot be closed");
     if (!impl.failed) impl.requireWritten("cannot be written");
 }

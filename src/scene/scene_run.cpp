@@ -202,4 +202,15 @@ Statistics SceneRun::simulationStep() {
     return sum;
 }
 
+Statistics SceneRun::simulationStep(std::vector<std::uint64_t>& hashes) {
+    Statistics sum;
+    hashes.clear();
+    for (int left = stepsPerSimulationStep(); left > 0; --left) {
+        step();
+        sum.add(world_.statistics());
+        hashes.push_back(world_.stateHash());
+    }
+    return sum;
+}
+
 }  // namespace cairn

@@ -11,7 +11,8 @@ double kineticEnergyOf(const BodyStorage& bodies);
 /// @throws InvariantError unless the batches split the contacts as they must
 void checkBatches(const WorldState& world);
 
-/// Contacts take energy away; they never give any. @param before kinetic energy before the resolution [J]
+/// Contacts take energy away; they give no more than the error of their resolution. @param before kinetic energy before
+/// the resolution [J]
 /// @throws InvariantError if it rose
 void checkEnergy(const WorldState& world, double before);
 

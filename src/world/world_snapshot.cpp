@@ -26,7 +26,11 @@ World World::restore(std::span<const std::byte> snapshot) {
 }
 
 void World::load(std::span<const std::byte> snapshot) {
-    *this = restore(snapshot);
+    World loaded = restore(snapshot);
+    // What the user watches the world with is no part of its state.
+    loaded.setChecks(state_->checks);
+    loaded.setTracing(state_->trace.tracing);
+    *this = std::move(loaded);
 }
 
 }  // namespace cairn

@@ -1,0 +1,157 @@
+#include "runner.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "commands.h"
+#include "interrupt.h"
+#include "output.h"
+
+namespace cairn::cli {
+
+namespace {
+
+constexpr double longest_duration = 1e7;  ///< [s]; about four months
+
+std::string describeFault(const SceneRun& run, const FaultInfo& fault) {
+    const auto found = std::find(run.ids().begin(), run.ids().end(), fault.body);
+    const auto index = static_cast<std::size_t>(found - run.ids().begin());
+    const std::string& name = run.scene().bodies.at(index).name;
+    return fmt::format("body {}{} failed in time step {} and was fixed: {}", index,
+                       name.empty() ? "" : fmt::format(" '{}'", name), fault.step, fault.what);
+}
+
+/// A run with its outputs.
+class Runner {
+  public:
+    Runner(SceneRun run, const OutputOptions& options, const std::filesystem::path& usual_checkpoint)
+        : run_(std::move(run)) {
+        if (options.check) run_.world().setChecks(Checks::on);
+        run_.stepsPerSimulationStep();  // refuses a bad number before a file is touched
+        if (auto option = parseCheckpoint(options.checkpoint, usual_checkpoint)) checkpoints_.emplace(*option);
+        // A place that cannot be written is told now and not after the first hours.
+        if (checkpoints_) checkpoints_->write(run_);
+        hashed_ = options.hashes;
+        if (!options.record.empty()) {
+            const auto hashes = static_cast<std::size_t>(hashed_ ? run_.stepsPerSimulationStep() : 0);
+            recording_.emplace(options.record, run_.scene(), run_.world().settings(), hashes);
+        }
+        if (!options.stats.empty()) stats_.emplace(options.stats);
+    }
+
+    /// @return why the run ended early, if it did. What failed is an output or a body; wrong events throw InputError
+    std::optional<std::string> simulate(Progress::Wish progress_wish) {
+        const double duration = run_.scene().duration;
+        // A duration such as 0.1 s is not exactly three simulation steps.
+        const auto all = static_cast<std::int64_t>(std::ceil(duration * simulation_steps_per_second - 1e-6));
+        const std::int64_t done = run_.world().stepCount() / run_.stepsPerSimulationStep();
+        Progress progress(duration, progress_wish);
+        try {
+            record({});
+            for (std::int64_t left = std::max<std::int64_t>(all, 1) - done; left > 0; --left) {
+                if (interrupted()) return interruption();
+                step();
+                if (!run_.world().faults().empty()) return describeFault(run_, run_.world().faults().front());
+                if (checkpoints_) checkpoints_->writeIfDue(run_);
+                progress.update(run_.world().time());
+            }
+            if (recording_) recording_->close();
+        } catch (const IoError& error) {
+            return error.what();
+        }
+        return std::nullopt;
+    }
+
+    Report report() const { return makeReport(run_, measurements_); }
+
+  private:
+    void step() {
+        using Milliseconds = std::chrono::duration<double, std::milli>;
+        const auto begin = std::chrono::steady_clock::now();
+        const Statistics statistics = hashed_ ? run_.simulationStep(hashes_) : run_.simulationStep();
+        const double ms = Milliseconds(std::chrono::steady_clock::now() - begin).count();
+        measurements_.add(ms, statistics);
+        record(statistics);
+        if (stats_) stats_->add(run_.world(), ms, statistics);
+    }
+
+    void record(const Statistics& statistics) {
+        if (!recording_) return;
+        Frame frame = captureFrame(run_, statistics);
+        frame.step_hashes = hashes_;
+        recording_->append(frame);
+    }
+
+    std::string interruption() {
+        std::string text = fmt::format("interrupted after {:.6g} of {} s", run_.world().time(), run_.scene().duration);
+        if (!checkpoints_) return text;
+        checkpoints_->write(run_);
+        return text + fmt::format("; 'cairn resume {}' goes on", checkpoints_->file().string());
+    }
+
+    SceneRun run_;
+    std::optional<Checkpointer> checkpoints_;
+    std::optional<RecordingWriter> recording_;
+    std::optional<StatsCsv> stats_;
+    Measurements measurements_;
+    bool hashed_ = false;
+    std::vector<std::uint64_t> hashes_;  ///< of the last simulation step
+};
+
+}  // namespace
+
+void addOutputOptions(CLI::App& command, OutputOptions& options) {
+    command.add_option("--record", options.record, "Write a recording (HDF5)")->type_name("FILE");
+    command.add_flag("--hashes", options.hashes, "Record a hash of every time step, for 'cairn replay --verify'");
+    command.add_option("--stats", options.stats, "Write the statistics of every simulation step (CSV)")
+        ->type_name("FILE");
+    command.add_option("--checkpoint", options.checkpoint, checkpoint_help)->type_name(checkpoint_form);
+    command.add_flag("--check", options.check, "Check the invariants of every time step; a broken one ends the run");
+    command.add_flag("--json", options.json, "Print the report as one JSON object and nothing else");
+    command.add_flag("--quiet", options.quiet, "Print neither progress nor report");
+}
+
+void refuseSameFiles(const OutputOptions& options, const std::string& input) {
+    if (options.hashes && options.record.empty()) throw InputError("--hashes needs --record, which keeps them");
+    const auto same = [](const std::string& a, const std::string& b) {
+        if (a.empty() || b.empty()) return false;
+        std::error_code unknown;
+        return a == b || std::filesystem::equivalent(a, b, unknown);
+    };
+    if (same(options.record, options.stats)) {
+        throw InputError(fmt::format("--record and --stats both name '{}'; give two files", options.record));
+    }
+    for (const std::string& out : {options.record, options.stats}) {
+        if (same(out, input)) {
+            throw InputError(fmt::format("'{}' is the scene itself; name another file for the output", out));
+        }
+    }
+}
+
+double requireDuration(double duration) {
+    if (duration > 0 && duration <= longest_duration) return duration;
+    throw InputError(fmt::format("--duration is {}; it must be above 0 and at most {} s", duration, longest_duration));
+}
+
+int runToTheEnd(SceneRun run, const OutputOptions& options, const std::filesystem::path& usual_checkpoint) {
+    Runner runner(std::move(run), options, usual_checkpoint);
+    noteInterrupts();
+    const auto failure = runner.simulate(options.quiet || options.json ? Progress::Wish::hide : Progress::Wish::show);
+    const Report report = runner.report();
+    if (options.json) {
+        printOut(toJson(report).dump(2) + '\n');
+    } else if (!options.quiet) {
+        printOut(formatTable(report));
+    }
+    if (!failure) return fine;
+    printError(*failure);
+    return run_failed;
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,43 @@
+/// @file A run with its outputs, shared by the subcommands that simulate to a scene's end.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "cairn/recording.h"
+#include "checkpoint_option.h"
+#include "measurements.h"
+#include "progress.h"
+#include "report.h"
+#include "stats_csv.h"
+
+namespace cairn::cli {
+
+/// What a run checks, and where its results go.
+struct OutputOptions {
+    std::string record;
+    bool hashes = false;
+    std::string stats;
+    std::string checkpoint;
+    bool check = false;
+    bool json = false;
+    bool quiet = false;
+};
+
+/// Adds --record, --hashes, --stats, --checkpoint, --check, --json and --quiet. @param options must outlive the command
+void addOutputOptions(CLI::App& command, OutputOptions& options);
+
+/// Two outputs must not be one file, nor any of them the input. @param input empty = no file @throws InputError
+void refuseSameFiles(const OutputOptions& options, const std::string& input);
+
+/// Checks a duration of the command line [s]. @throws InputError
+double requireDuration(double duration);
+
+/// Simulates to the end of the scene, with outputs and a report, and notes signals.
+/// @param usual_checkpoint file of the checkpoints if the option names none
+/// @return the exit code @throws InputError, IoError before it begins
+int runToTheEnd(SceneRun run, const OutputOptions& options, const std::filesystem::path& usual_checkpoint);
+
+}  // namespace cairn::cli
