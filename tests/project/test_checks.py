@@ -150,6 +150,12 @@ class Dependencies(Tree):
                                          "| `tool` | |\n")
         self.finds(dependencies, "no line for tool", "does not list libold-dev")
 
+    def test_so_must_the_packages_of_the_page(self):
+        self.put("tools/packages.txt", "")
+        self.put("web/package.json", '{"dependencies": {"one": "1"}, "devDependencies": {"@a/two": "2"}}')
+        self.put("docs/dependencies.md", "- `one`: needed\n- `@a/three`: gone\n")
+        self.finds(dependencies, "npm package @a/two", "does not list @a/three")
+
 
 class ThesisMap(Tree):
     def setUp(self):
