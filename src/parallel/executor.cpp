@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <ctime>
 #include <exception>
 #include <mutex>
 
@@ -41,31 +43,58 @@ void onThreads(int threads, const Work& work) {
 
 #endif
 
-/// Keeps the exception of the lowest thread; parallel regions must not leak exceptions. Takes no memory.
-class Failure {
+using Clock = std::chrono::steady_clock;
+
+/// Processor time of the calling thread [s].
+double threadSeconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// The threads of one loop: keeps the exception of the lowest one (parallel regions must not leak exceptions) and how
+/// long the longest of them worked. Takes no memory.
+class Team {
   public:
-    /// Runs a thread's whole share of a loop, which an exception ends.
+    /// Runs a thread's whole share of the loop, which an exception ends.
     template <class Work>
-    void guard(int thread, const Work& work) {
+    void run(int thread, const Work& work) {
+        const double begin = threadSeconds();
+        std::exception_ptr exception;
         try {
             work();
         } catch (...) {
-            const std::lock_guard lock(mutex_);
-            if (exception_ && thread_ < thread) return;
-            thread_ = thread;
-            exception_ = std::current_exception();
+            exception = std::current_exception();
         }
+        const double worked = threadSeconds() - begin;
+        const std::lock_guard lock(mutex_);
+        longest_ = std::max(longest_, worked);
+        if (!exception || (exception_ && thread_ < thread)) return;
+        thread_ = thread;
+        exception_ = exception;
     }
 
     void rethrow() const {
         if (exception_) std::rethrow_exception(exception_);
     }
 
+    /// How much longer the loop took than its longest share [s]: the time that threads waited for a processor.
+    double lateness() const { return std::chrono::duration<double>(Clock::now() - begin_).count() - longest_; }
+
   private:
+    Clock::time_point begin_ = Clock::now();
     std::mutex mutex_;
+    double longest_ = 0;  ///< processor time of the longest share [s]
     int thread_ = 0;
     std::exception_ptr exception_;
 };
+
+/// Lateness up to this is not worth a reaction [s].
+constexpr double noticed_lateness = 200e-6;
+/// Most loops in a row on the caller's thread alone before other threads get another chance.
+constexpr double most_paused = 16384;
+/// What is left of the penalty after each loop in time.
+constexpr double forgiveness = 0.9;
 
 }  // namespace
 
@@ -79,27 +108,44 @@ void Executor::forBlocks(std::size_t count, FunctionRef<void(std::size_t, std::s
         work(0, count, 0);
         return;
     }
-    Failure failure;
+    if (isPaused()) {
+        --patience_.paused;
+        work(0, count, 0);
+        return;
+    }
+    Team team;
     onThreads(static_cast<int>(blocks), [&](int t) {
         const auto block = static_cast<std::size_t>(t);
-        failure.guard(t, [&] { work(count * block / blocks, count * (block + 1) / blocks, t); });
+        team.run(t, [&] { work(count * block / blocks, count * (block + 1) / blocks, t); });
     });
-    failure.rethrow();
+    judge(team.lateness());
+    team.rethrow();
+}
+
+void Executor::judge(double lateness) const {
+    if (lateness > noticed_lateness) {
+        patience_.penalty = std::min(std::max(2 * patience_.penalty, 1.0), most_paused);
+        patience_.paused = static_cast<int>(patience_.penalty);
+    } else {
+        patience_.penalty *= forgiveness;
+    }
 }
 
 void Executor::forEachDynamic(std::size_t count, FunctionRef<void(std::size_t, int)> work) const {
-    if (threads_ == 1 || count < 2) {
+    if (threads_ == 1 || count < 2 || isPaused()) {
+        patience_.paused = std::max(patience_.paused - 1, 0);
         for (std::size_t i = 0; i < count; ++i) work(i, 0);
         return;
     }
-    Failure failure;
+    Team team;
     std::atomic<std::size_t> next = 0;
     onThreads(threads_, [&](int t) {
-        failure.guard(t, [&] {
+        team.run(t, [&] {
             for (std::size_t i = next++; i < count; i = next++) work(i, t);
         });
     });
-    failure.rethrow();
+    judge(team.lateness());
+    team.rethrow();
 }
 
 }  // namespace cairn

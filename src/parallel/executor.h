@@ -28,7 +28,20 @@ class Executor {
     void forEachDynamic(std::size_t count, FunctionRef<void(std::size_t, int)> work) const;
 
   private:
+    /// On a machine that is busy with other things a thread may get its turn milliseconds late, and a loop waits for
+    /// all of its threads. After such a loop the next ones run on the caller's thread alone, twice as many after each.
+    /// Only times depend on this, results never do.
+    struct Patience {
+        int paused = 0;      ///< loops still to be run alone
+        double penalty = 0;  ///< loops that were run alone after the last late one, shrinking with loops in time
+    };
+
+    bool isPaused() const { return patience_.paused > 0; }
+    /// @param lateness how long threads of a loop waited for a processor [s]
+    void judge(double lateness) const;
+
     int threads_;
+    mutable Patience patience_;
 };
 
 }  // namespace cairn
