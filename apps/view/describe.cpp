@@ -51,6 +51,9 @@ json toJson(const Shape& shape) {
             [](const Capsule& c) -> json {
                 return {{"type", "capsule"}, {"radius", c.radius}, {"length", c.length}};
             },
+            [](const Cylinder& c) -> json {
+                return {{"type", "cylinder"}, {"radius", c.radius}, {"length", c.length}};
+            },
             [](const HalfSpace& h) -> json {
                 // The page expects a unit normal with the offset along it.
                 return {{"type", "plane"}, {"normal", toJson(Vec3(h.normal.normalized()))}, {"offset", h.offset}};
@@ -78,6 +81,10 @@ std::string describeShape(const Shape& shape) {
                    [](const Capsule& c) {
                        return fmt::format("capsule, diameter {:.4g} cm, length {:.4g} cm", 200 * c.radius,
                                           100 * (c.length + 2 * c.radius));
+                   },
+                   [](const Cylinder& c) {
+                       return fmt::format("cylinder, diameter {:.4g} cm, length {:.4g} cm", 200 * c.radius,
+                                          100 * c.length);
                    },
                    [](const HalfSpace&) { return std::string("half-space"); }},
         shape);

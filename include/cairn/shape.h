@@ -23,6 +23,12 @@ struct Capsule {
     double length = 1.0;  ///< of the cylindrical part, without the half balls [m], > 0
 };
 
+/// A cylinder about the origin of B, its axis along z.
+struct Cylinder {
+    double radius = 0.5;  ///< [m], > 0
+    double length = 1.0;  ///< along the axis [m], > 0
+};
+
 /// All points p with normal·p ≤ offset are solid; always fixed, has no mass.
 struct HalfSpace {
     Vec3 normal = Vec3::UnitZ();  ///< outward, in B, any length > 0
@@ -30,6 +36,6 @@ struct HalfSpace {
 };
 
 /// Any shape. A new kind joins here, in src/geometry (one table entry) and src/narrow_phase (its row of testers).
-using Shape = std::variant<Sphere, Box, Capsule, HalfSpace>;
+using Shape = std::variant<Sphere, Box, Capsule, HalfSpace, Cylinder>;
 
 }  // namespace cairn

@@ -15,7 +15,7 @@ using EntryOf = const ShapeEntry& (*)();
 
 /// In the order of the alternatives of Shape.
 constexpr std::array<EntryOf, std::variant_size_v<Shape>> entries = {sphereEntry, boxEntry, capsuleEntry,
-                                                                     halfSpaceEntry};
+                                                                     halfSpaceEntry, cylinderEntry};
 
 const ShapeEntry& entryOf(const Shape& shape) {
     return entries[shape.index()]();

@@ -25,7 +25,7 @@ struct UnitMassProperties {
     Vec3 inertia_volume;  ///< principal moments about the centre for density 1 [m⁵, B]
 };
 
-/// "sphere", "box", "capsule", "plane": the name in scene files.
+/// "sphere", "box", "capsule", "plane", "cylinder": the name in scene files.
 std::string_view shapeName(const Shape& shape);
 /// @throws InputError if a dimension is not finite or not positive; the text names it
 void validateShape(const Shape& shape);

@@ -46,6 +46,7 @@ const ShapeEntry& sphereEntry();
 const ShapeEntry& boxEntry();
 const ShapeEntry& capsuleEntry();
 const ShapeEntry& halfSpaceEntry();
+const ShapeEntry& cylinderEntry();
 
 /// Smallest and largest length of a shape [m]: between them no volume, inertia or inverse leaves the range of double,
 /// and tiny_length stays far below any shape.

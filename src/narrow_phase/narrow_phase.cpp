@@ -1,5 +1,6 @@
 #include "narrow_phase/narrow_phase.h"
 
+#include "narrow_phase/convex_contact.h"
 #include "narrow_phase/pair_testers.h"
 
 namespace cairn {
@@ -40,6 +41,9 @@ Vec3 dimensions(const Box& box) {
 }
 Vec3 dimensions(const Capsule& capsule) {
     return {capsule.radius, capsule.length, 0};
+}
+Vec3 dimensions(const Cylinder& cylinder) {
+    return {cylinder.radius, cylinder.length, 0};
 }
 
 /// Two shapes of one kind are handed to their tester in an order that depends on them alone, so that swapping them
@@ -113,6 +117,11 @@ constexpr TesterTable makeTable() {
     table.addSame<Capsule, capsuleCapsule>();
     table.add<Capsule, HalfSpace, capsuleHalfSpace>();
     table.addNever<HalfSpace>();
+    table.add<Sphere, Cylinder, sphereCylinder>();
+    table.add<Cylinder, Box, convexPair<Cylinder, Box>>();
+    table.add<Cylinder, Capsule, convexPair<Cylinder, Capsule>>();
+    table.add<Cylinder, HalfSpace, cylinderHalfSpace>();
+    table.addSame<Cylinder, convexPair<Cylinder, Cylinder>>();
     return table;
 }
 

@@ -65,6 +65,27 @@ Surface roundSurface(double radius, double half_length) {
     return surface;
 }
 
+Surface cylinderSurface(const Cylinder& cylinder) {
+    Surface surface;
+    constexpr int around = 2 * segments;
+    for (const double end : {-0.5, 0.5}) {
+        for (int s = 0; s < around; ++s) {
+            const double longitude = 2 * std::numbers::pi * s / around;
+            surface.points.emplace_back(cylinder.radius * std::cos(longitude), cylinder.radius * std::sin(longitude),
+                                        end * cylinder.length);
+        }
+    }
+    for (int s = 0; s < around; ++s) {
+        const int next = (s + 1) % around;
+        addPolygon(surface, {s, next, around + next, around + s});
+    }
+    for (int s = around - 1; s >= 0; --s) surface.corners.push_back(s);
+    surface.ends.push_back(static_cast<std::int32_t>(surface.corners.size()));
+    for (int s = 0; s < around; ++s) surface.corners.push_back(around + s);
+    surface.ends.push_back(static_cast<std::int32_t>(surface.corners.size()));
+    return surface;
+}
+
 Surface planeSurface(const HalfSpace& plane, const PlaneExtent& extent) {
     const Vec3 normal = plane.normal.normalized();
     // The offset is along the unit normal, whatever the length of the given one.
@@ -85,6 +106,7 @@ Surface makeSurface(const Shape& shape, const PlaneExtent& extent) {
         Surface operator()(const Sphere& s) const { return roundSurface(s.radius, 0); }
         Surface operator()(const Box& b) const { return boxSurface(b); }
         Surface operator()(const Capsule& c) const { return roundSurface(c.radius, c.length / 2); }
+        Surface operator()(const Cylinder& c) const { return cylinderSurface(c); }
         Surface operator()(const HalfSpace& h) const { return planeSurface(h, extent); }
     };
     return std::visit(Visitor{extent}, shape);

@@ -42,7 +42,7 @@ PairProperties readPair(const JsonNode& node, PairProperties inherited) {
     return pair;
 }
 
-constexpr std::string_view shape_types = "sphere, box, capsule or plane";
+constexpr std::string_view shape_types = "sphere, box, capsule, cylinder or plane";
 
 Shape readShape(const JsonNode& node) {
     if (!node.value().is_object()) node.refuse("an object with the key type and the dimensions");
@@ -63,6 +63,10 @@ Shape readShape(const JsonNode& node) {
     if (type == "capsule") {
         node.expectKeys({"type", "radius", "length"});
         return Capsule{length("radius"), length("length")};
+    }
+    if (type == "cylinder") {
+        node.expectKeys({"type", "radius", "length"});
+        return Cylinder{length("radius"), length("length")};
     }
     if (type == "plane") {
         node.expectKeys({"type", "normal", "offset"});

@@ -51,6 +51,9 @@ std::string shapeText(const Box& s) {
 std::string shapeText(const Capsule& s) {
     return fmt::format(R"("capsule","radius":{},"length":{})", number(s.radius), number(s.length));
 }
+std::string shapeText(const Cylinder& s) {
+    return fmt::format(R"("cylinder","radius":{},"length":{})", number(s.radius), number(s.length));
+}
 std::string shapeText(const HalfSpace& s) {
     return fmt::format(R"("plane","normal":{},"offset":{})", vector(s.normal), number(s.offset));
 }

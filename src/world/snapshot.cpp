@@ -108,6 +108,7 @@ ShapeNumbers numbersOf(const Shape& shape) {
         ShapeNumbers operator()(const HalfSpace& h) const {
             return {h.normal.x(), h.normal.y(), h.normal.z(), h.offset};
         }
+        ShapeNumbers operator()(const Cylinder& c) const { return {c.radius, c.length}; }
     };
     return std::visit(Visitor{}, shape);
 }
@@ -122,6 +123,8 @@ Shape shapeFrom(std::uint8_t kind, const double* n, const ByteReader& in) {
             return Capsule{n[0], n[1]};
         case 3:
             return HalfSpace{Vec3(n[0], n[1], n[2]), n[3]};
+        case 4:
+            return Cylinder{n[0], n[1]};
         default:
             in.refuse("an unknown kind of shape");
     }

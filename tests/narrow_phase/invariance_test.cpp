@@ -7,7 +7,7 @@ namespace {
 
 /// Any shape near the origin, half-spaces included.
 Shape anyShape(Random& random, double size) {
-    if (random.below(4) != 0) return random.shape(size);
+    if (random.below(4) != 0) return random.solid(size);
     return HalfSpace{random.uniform(0.1, 3) * random.direction(), random.uniform(-0.5, 0.5) * size};
 }
 
@@ -25,9 +25,11 @@ Quat anyOrientation(Random& random) {
 /// Lengths that are multiples of a quarter, so that faces, edges and centres often coincide exactly.
 Shape roundShape(Random& random) {
     const auto length = [&] { return 0.25 * (1 + random.below(4)); };
-    switch (random.below(4)) {
+    switch (random.below(5)) {
         case 0:
             return Sphere{length()};
+        case 3:
+            return Cylinder{length(), length()};
         case 1:
             return Box{{length(), length(), length()}};
         case 2:
@@ -101,7 +103,7 @@ TEST(AllPairs, AnyPoseGivesFiniteDistinctPointsAndAUnitNormal) {
 
 TEST(AllPairs, AbsurdlyFarBodiesDoNotTouch) {
     for (const double far : {1e100, 1e160, 1e300}) {
-        for (const Shape& a : {Shape(Sphere{}), Shape(Box{}), Shape(Capsule{})}) {
+        for (const Shape& a : {Shape(Sphere{}), Shape(Box{}), Shape(Capsule{}), Shape(Cylinder{})}) {
             for (const Shape& b : {Shape(Sphere{}), Shape(Box{}), Shape(Capsule{}), Shape(HalfSpace{})}) {
                 EXPECT_EQ(contactOf(a, at({0, far, far}), b, at({0, 0, 0})).size, 0U);
             }
@@ -113,7 +115,7 @@ TEST(AllPairs, AbsurdlyFarBodiesDoNotTouch) {
 TEST(AllPairs, MovingBothBodiesMovesTheContact) {
     Random random(23);
     for (int i = 0; i < 20000; ++i) {
-        const Shape a = random.shape(1);
+        const Shape a = random.solid(1);
         const Shape b = anyShape(random, 1);
         const Pose pose_a{random.vector(0.5), random.orientation()};
         const Pose pose_b{random.vector(0.5), random.orientation()};
@@ -129,7 +131,10 @@ TEST(AllPairs, MovingBothBodiesMovesTheContact) {
         // another of two nearly equal contacts.
         ASSERT_NEAR(deepest(m), deepest(after), 2e-3 + 0.04 * std::abs(deepest(m))) << "pose " << i;
         if (std::abs(deepest(m) - deepest(after)) > 1e-9 || a.index() == 1) continue;
-        ASSERT_LE((motion.orientation * m.normal - after.normal).norm(), 1e-6) << "pose " << i;
+        // The direction of least overlap of round shapes is found by trial: a depth right to 1e-11 has an angle to
+        // 1e-5.
+        const bool round = std::holds_alternative<Cylinder>(a) || std::holds_alternative<Cylinder>(b);
+        ASSERT_LE((motion.orientation * m.normal - after.normal).norm(), round ? 1e-4 : 1e-6) << "pose " << i;
     }
 }
 
@@ -142,7 +147,7 @@ TEST(AllPairs, ContactsFarFromTheOriginAreThoseNearIt) {
             const double y = random.below(4096) - 2048;
             return Vec3(x, y, random.below(4096) - 2048) / 4096;
         };
-        const Shape a = random.shape(1);
+        const Shape a = random.solid(1);
         const Shape b = anyShape(random, 1);
         const Pose pose_a{grid(), anyOrientation(random)};
         const Pose pose_b{grid(), anyOrientation(random)};
@@ -165,6 +170,9 @@ Shape scaled(const Shape& shape, double factor) {
     if (const auto* capsule = std::get_if<Capsule>(&shape)) {
         return Capsule{factor * capsule->radius, factor * capsule->length};
     }
+    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+        return Cylinder{factor * cylinder->radius, factor * cylinder->length};
+    }
     const auto& half_space = std::get<HalfSpace>(shape);
     return HalfSpace{half_space.normal, factor * half_space.offset};
 }
@@ -172,7 +180,7 @@ Shape scaled(const Shape& shape, double factor) {
 TEST(AllPairs, MillimetresAndKilometresTouchLikeMetres) {
     Random random(25);
     for (int i = 0; i < 20000; ++i) {
-        const Shape a = random.shape(1);
+        const Shape a = random.solid(1);
         const Shape b = anyShape(random, 1);
         const Pose pose_a{random.vector(0.5), anyOrientation(random)};
         const Pose pose_b{random.vector(0.5), anyOrientation(random)};

@@ -56,7 +56,12 @@ class Random {
         const double angle = std::pow(10.0, -1 - below(14));
         return (Quat(Eigen::AngleAxisd(angle, direction())) * q).normalized();
     }
-    /// A finite shape whose lengths are up to `size` and not less than a tenth of it.
+    /// Any finite shape.
+    Shape solid(double size) {
+        if (below(4) != 0) return shape(size);
+        return Cylinder{length(0.5 * size), length(size)};
+    }
+    /// A sphere, box or capsule whose lengths are up to `size` and not less than a tenth of it.
     Shape shape(double size) {
         switch (below(3)) {
             case 0:

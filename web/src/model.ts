@@ -4,6 +4,7 @@ export type ShapeInfo =
   | { type: 'sphere'; radius: number }
   | { type: 'box'; size: [number, number, number] }
   | { type: 'capsule'; radius: number; length: number }
+  | { type: 'cylinder'; radius: number; length: number }
   | { type: 'plane'; normal: [number, number, number]; offset: number };
 
 /** A body as the page draws it; `slot` is its place in the arrays of a frame. */

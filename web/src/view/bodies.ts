@@ -1,6 +1,6 @@
 /** All bodies of a world as a few instanced meshes, one per kind of geometry. */
 import {
-  BoxGeometry, BufferGeometry, CapsuleGeometry, Group, InstancedBufferAttribute, InstancedMesh, Matrix4, Quaternion,
+  BoxGeometry, BufferGeometry, CapsuleGeometry, CylinderGeometry, Group, InstancedBufferAttribute, InstancedMesh, Matrix4, Quaternion,
   SphereGeometry, Vector3, type Material,
 } from 'three';
 import { asleep, fixed, present, type BodyInfo, type ColourMode, type Frame, type Roster } from '../model';
@@ -184,6 +184,7 @@ function geometryKey(body: BodyInfo): string {
 }
 
 function halfExtents(body: BodyInfo): [number, number, number] {
+  if (body.shape.type === 'cylinder') return [body.shape.radius, body.shape.radius, body.shape.length / 2];
   if (body.shape.type === 'box') return body.shape.size.map((edge) => edge / 2) as [number, number, number];
   if (body.shape.type === 'sphere') return [body.shape.radius, body.shape.radius, body.shape.radius];
   return [1, 1, 1];
@@ -197,6 +198,7 @@ function makeGeometry(body: BodyInfo, count: number): BufferGeometry {
     const capsule = new CapsuleGeometry(body.shape.radius, body.shape.length, Math.ceil(along / 2), around);
     return capsule.rotateX(Math.PI / 2);
   }
+  if (body.shape.type === 'cylinder') return new CylinderGeometry(1, 1, 2, 2 * around).rotateX(Math.PI / 2);
   return new SphereGeometry(1, around, along).rotateX(Math.PI / 2);
 }
 

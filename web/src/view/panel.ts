@@ -113,7 +113,7 @@ export function extentOf(roster: Roster, frame: Frame): Extent {
     const points: { p: Vector3; size: number; far: number }[] = [];
     for (const { shape, slot } of roster.bodies.values()) {
       if (shape.type === 'plane' || slot >= frame.slots || (frame.flags[slot] & (present | fixed)) !== wanted) continue;
-      const size = shape.type === 'box' ? Math.max(...shape.size) : 2 * shape.radius + (shape.type === 'capsule' ? shape.length : 0);
+      const size = shape.type === 'box' ? Math.max(...shape.size) : 2 * shape.radius + ('length' in shape ? shape.length : 0);
       points.push({ p: new Vector3().fromArray(frame.position, 3 * slot), size, far: 0 });
     }
     if (points.length === 0) continue;

@@ -32,6 +32,7 @@ function distanceTo(shape: ShapeInfo, o: Vector3, d: Vector3): number {
     case 'sphere': return sphere(o, d, shape.radius);
     case 'box': return box(o, d, shape.size);
     case 'capsule': return capsule(o, d, shape.radius, shape.length / 2);
+    case 'cylinder': return cylinder(o, d, shape.radius, shape.length / 2);
     case 'plane': {
       const n = new Vector3(...shape.normal);
       const slope = n.dot(d);
@@ -61,6 +62,18 @@ function box(o: Vector3, d: Vector3, size: number[]): number {
     near = Math.max(near, Math.min(t0, t1));
     far = Math.min(far, Math.max(t0, t1));
   }
+  return near <= far ? inFront(near) : Infinity;
+}
+
+function cylinder(o: Vector3, d: Vector3, radius: number, half: number): number {
+  const a = d.x * d.x + d.y * d.y, b = o.x * d.x + o.y * d.y, c = o.x * o.x + o.y * o.y - radius * radius;
+  const root = b * b - a * c;
+  if (root < 0 || (a === 0 && c > 0)) return Infinity;
+  let near = a > 0 ? (-b - Math.sqrt(root)) / a : -Infinity, far = a > 0 ? (-b + Math.sqrt(root)) / a : Infinity;
+  if (d.z === 0) return Math.abs(o.z) <= half ? inFront(near) : Infinity;
+  const t0 = (-half - o.z) / d.z, t1 = (half - o.z) / d.z;
+  near = Math.max(near, Math.min(t0, t1));
+  far = Math.min(far, Math.max(t0, t1));
   return near <= far ? inFront(near) : Infinity;
 }
 

@@ -1,0 +1,143 @@
+#include "narrow_phase/convex.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace cairn {
+
+namespace {
+
+/// Largest cosine between the axis of a capsule and a direction that its whole side faces.
+constexpr double lying_cosine = 0.1;
+
+/// Smallest cosine between the axis of a cylinder and a direction that its cap faces.
+constexpr double cap_cosine = std::numbers::sqrt2 / 2;
+
+}  // namespace
+
+Eigen::Vector2d rimDirection(int index) {
+    constexpr double s = std::numbers::sqrt2 / 2;
+    constexpr std::array<double, rim_corners> cosines = {1, s, 0, -s, -1, -s, 0, s};
+    const auto i = static_cast<std::size_t>(index);
+    return {cosines[i], cosines[(i + 6) % rim_corners]};
+}
+
+Convex::Convex(const Sphere& sphere, const Pose& pose, const Vec3& origin)
+    : kind_(Kind::point), centre_(pose.position - origin), rounding_(sphere.radius), smallest_(sphere.radius) {}
+
+Convex::Convex(const Box& box, const Pose& pose, const Vec3& origin)
+    : kind_(Kind::box),
+      axes_(pose.orientation.toRotationMatrix()),
+      centre_(pose.position - origin),
+      half_(0.5 * box.size),
+      reach_(half_.norm()),
+      smallest_(half_.minCoeff()) {}
+
+Convex::Convex(const Capsule& capsule, const Pose& pose, const Vec3& origin)
+    : kind_(Kind::line),
+      axes_(pose.orientation.toRotationMatrix()),
+      centre_(pose.position - origin),
+      half_(0, 0, 0.5 * capsule.length),
+      rounding_(capsule.radius),
+      reach_(half_.z()),
+      smallest_(capsule.radius) {}
+
+Convex::Convex(const Cylinder& cylinder, const Pose& pose, const Vec3& origin)
+    : kind_(Kind::cylinder),
+      axes_(pose.orientation.toRotationMatrix()),
+      centre_(pose.position - origin),
+      half_(cylinder.radius, cylinder.radius, 0.5 * cylinder.length),
+      reach_(std::hypot(half_.x(), half_.z())),
+      smallest_(half_.minCoeff()) {}
+
+Vec3 Convex::support(const Vec3& direction) const {
+    if (kind_ == Kind::point) return centre_;
+    const Vec3 d = axes_.transpose() * direction;
+    Vec3 farthest(std::copysign(half_.x(), d.x()), std::copysign(half_.y(), d.y()), std::copysign(half_.z(), d.z()));
+    if (kind_ == Kind::cylinder) {
+        const double across = std::hypot(d.x(), d.y());
+        farthest.head<2>() =
+            across > 0 ? Eigen::Vector2d(half_.x() / across * d.head<2>()) : Eigen::Vector2d(half_.x(), 0);
+    }
+    return centre_ + axes_ * farthest;
+}
+
+void Convex::findFeature(const Vec3& direction, Feature& feature) const {
+    feature.corners.size = 0;
+    feature.disc_radius = 0;
+    switch (kind_) {
+        case Kind::point:
+            feature.corners.add(centre_);
+            return;
+        case Kind::box:
+            return findBoxFace(direction, feature);
+        case Kind::line:
+            return findLine(direction, feature);
+        case Kind::cylinder:
+            return findCylinderFeature(direction, feature);
+    }
+}
+
+void Convex::findBoxFace(const Vec3& direction, Feature& feature) const {
+    const Vec3 d = axes_.transpose() * direction;
+    Eigen::Index k = 0;
+    d.cwiseAbs().maxCoeff(&k);
+    const Vec3 normal = std::copysign(1.0, d[k]) * axes_.col(k);
+    const Vec3 middle = centre_ + half_[k] * normal;
+    const Vec3 u = half_[(k + 1) % 3] * axes_.col((k + 1) % 3);
+    // Counter-clockwise seen from outside.
+    const Vec3 v = std::copysign(half_[(k + 2) % 3], d[k]) * axes_.col((k + 2) % 3);
+    feature.corners.add(middle - u - v);
+    feature.corners.add(middle + u - v);
+    feature.corners.add(middle + u + v);
+    feature.corners.add(middle - u + v);
+    feature.face = {normal, normal.dot(middle)};
+}
+
+void Convex::findLine(const Vec3& direction, Feature& feature) const {
+    const Vec3 half = half_.z() * axes_.col(2);
+    const double cosine = axes_.col(2).dot(direction);
+    if (cosine >= -lying_cosine) feature.corners.add(centre_ + half);
+    if (cosine <= lying_cosine) feature.corners.add(centre_ - half);
+}
+
+void Convex::findCylinderFeature(const Vec3& direction, Feature& feature) const {
+    const double cosine = axes_.col(2).dot(direction);
+    if (std::abs(cosine) > cap_cosine) return addCap(direction, std::copysign(1.0, cosine), feature);
+    const Vec3 across = half_.x() * (direction - cosine * axes_.col(2)).normalized();
+    const Vec3 half = half_.z() * axes_.col(2);
+    feature.corners.add(centre_ + across + half);
+    feature.corners.add(centre_ + across - half);
+}
+
+void Convex::addCap(const Vec3& direction, double end, Feature& feature) const {
+    const double radius = half_.x();
+    const Vec3 normal = end * axes_.col(2);
+    feature.disc_radius = radius;
+    feature.disc_centre = centre_ + half_.z() * normal;
+    feature.face = {normal, normal.dot(feature.disc_centre)};
+    const Eigen::Vector2d d = (axes_.transpose() * direction).head<2>();
+    const double tilt = d.norm();
+    const bool tilted = (1 - std::cos(std::numbers::pi / rim_corners)) * tilt > rim_part;
+    const Eigen::Vector2d lowest = tilted ? Eigen::Vector2d(d / tilt) : Eigen::Vector2d::Zero();
+    const auto add = [&](const Eigen::Vector2d& at) {
+        feature.corners.add(feature.disc_centre + radius * (axes_.leftCols<2>() * at));
+    };
+    bool lowest_added = !tilted;
+    for (int i = 0; i < rim_corners; ++i) {
+        // Counter-clockwise seen from outside.
+        const int index = end > 0 ? i : rim_corners - 1 - i;
+        const Eigen::Vector2d at = rimDirection(index);
+        const double turn = end * (at.x() * lowest.y() - at.y() * lowest.x());
+        if (!tilted || (at - lowest).norm() > rim_spacing) add(at);
+        // The lowest point lies between this corner and the next, or on one of them.
+        const double ahead = at.dot(lowest);
+        if (!lowest_added && turn >= 0 && ahead >= std::cos(2 * std::numbers::pi / rim_corners) - 1e-9) {
+            add(lowest);
+            lowest_added = true;
+        }
+    }
+}
+
+}  // namespace cairn
