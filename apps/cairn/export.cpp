@@ -5,6 +5,7 @@
 
 #include "cairn/recording.h"
 #include "commands.h"
+#include "view_exports.h"
 
 namespace cairn::cli {
 
@@ -14,6 +15,7 @@ struct ExportOptions {
     std::string recording;
     std::string csv;
     std::string vtk;
+    ViewExports view;
 };
 
 /// The recording must not be emptied before it is read.
@@ -26,15 +28,18 @@ void refuseSameFile(const std::string& recording, const std::string& out) {
 
 void runExport(const ExportOptions& options) {
     const RecordingReader recording(options.recording);
-    refuseSameFile(options.recording, options.csv);
+    for (const std::string& out : {options.csv, options.view.html, options.view.png, options.view.mp4}) {
+        refuseSameFile(options.recording, out);
+    }
     if (!options.csv.empty()) exportCsv(recording, options.csv);
     if (!options.vtk.empty()) exportVtk(recording, options.vtk);
+    writeViewExports(recording, options.view);
 }
 
 }  // namespace
 
 void addExport(CLI::App& app, int&) {
-    CLI::App* command = app.add_subcommand("export", "Turn a recording into CSV or VTK files");
+    CLI::App* command = app.add_subcommand("export", "Turn a recording into tables, a page, a picture or a film");
     auto options = std::make_shared<ExportOptions>();
     command->add_option("RECORDING", options->recording, "A recording made by 'cairn run --record'")
         ->required()
@@ -43,6 +48,7 @@ void addExport(CLI::App& app, int&) {
     formats->add_option("--csv", options->csv, "Write one row per frame and body to this file");
     formats->add_option("--vtk", options->vtk,
                         "Write OUT.pvd, a time series for ParaView, and a folder OUT of .vtp files");
+    addViewExports(*command, *formats, options->view);
     formats->require_option(1, 0);
     command->callback([options] { runExport(*options); });
 }

@@ -1,11 +1,9 @@
 /// @file cairn info: what stands in a recording or a scene.
 #include <fmt/format.h>
 
-#include <memory>
-
 #include <array>
-#include <fstream>
 #include <map>
+#include <memory>
 
 #include "cairn/recording.h"
 #include "commands.h"
@@ -64,13 +62,6 @@ std::string describeRecording(const RecordingReader& recording) {
     text += describeScene(info.scene);
     for (const auto& [name, value] : info.settings) text += line("setting", fmt::format("{} = {}", name, value));
     return text;
-}
-
-bool looksLikeRecording(const std::filesystem::path& file) {
-    if (file.extension() == ".h5" || file.extension() == ".hdf5") return true;
-    std::array<char, 4> begin{};
-    std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
-    return std::string_view(begin.data(), begin.size()) == "\x89HDF";
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <thread>
 
 namespace cairn::cli {
@@ -27,10 +26,8 @@ std::int64_t allCores() {
 }  // namespace
 
 void addOverrideOptions(CLI::App& command, OverrideOptions& options) {
-    const std::map<std::string, Preset> presets = {{"performance", Preset::performance},
-                                                   {"accuracy", Preset::accuracy}};
-    command.add_option("--preset", options.preset, "performance (also the default) or accuracy")
-        ->transform(CLI::CheckedTransformer(presets));
+    command.add_option("--preset", options.preset, "The default is the scene's, or else performance")
+        ->check(CLI::IsMember({"performance", "accuracy"}));
     command.add_option("--threads", options.threads, "Threads of a step; default: all cores");
     command.add_option("--steps-per-second", options.steps_per_second,
                        "Time steps per simulated second; default: the preset's");
@@ -40,7 +37,10 @@ void addOverrideOptions(CLI::App& command, OverrideOptions& options) {
 }
 
 SettingOverrides overridesFrom(const OverrideOptions& options, const Scene& scene) {
-    SettingOverrides overrides{options.preset, options.steps_per_second, {}};
+    SettingOverrides overrides{{}, options.steps_per_second, {}};
+    if (!options.preset.empty()) {
+        overrides.preset = options.preset == "accuracy" ? Preset::accuracy : Preset::performance;
+    }
     const bool scene_decides = std::any_of(scene.settings.begin(), scene.settings.end(),
                                            [](const auto& field) { return field.first == "threads"; });
     if (options.threads || !scene_decides) {

@@ -13,7 +13,7 @@ namespace cairn::cli {
 
 /// What the command line changes.
 struct OverrideOptions {
-    std::optional<Preset> preset;
+    std::string preset;  ///< empty = not given
     std::optional<std::int64_t> threads;
     std::optional<double> steps_per_second;
     std::vector<std::string> fields;

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <fstream>
+
 namespace cairn::cli {
 
 Scene loadScene(const std::string& argument) {
@@ -11,6 +14,13 @@ Scene loadScene(const std::string& argument) {
             "there is no built-in scene and no file '{}'; 'cairn scenes' lists the built-in scenes", argument));
     }
     return readScene(argument);
+}
+
+bool looksLikeRecording(const std::filesystem::path& file) {
+    if (file.extension() == ".h5" || file.extension() == ".hdf5") return true;
+    std::array<char, 4> begin{};
+    std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
+    return std::string_view(begin.data(), begin.size()) == "\x89HDF";
 }
 
 }  // namespace cairn::cli

@@ -1,6 +1,7 @@
 /// @file A scene as it is named on the command line.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "cairn/scene.h"
@@ -9,5 +10,8 @@ namespace cairn::cli {
 
 /// @param argument the name of a built-in scene, or else a file @throws InputError, IoError
 Scene loadScene(const std::string& argument);
+
+/// True for a file whose name or first bytes are those of HDF5.
+bool looksLikeRecording(const std::filesystem::path& file);
 
 }  // namespace cairn::cli

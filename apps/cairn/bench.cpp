@@ -1,0 +1,110 @@
+/// @file cairn bench: the thesis's benchmarks beside ours.
+#include "bench_thesis/bench.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <memory>
+
+#include "commands.h"
+#include "interrupt.h"
+#include "output.h"
+#include "view_exports.h"
+
+namespace cairn::cli {
+
+namespace {
+
+struct BenchArguments {
+    std::vector<std::string> only;
+    std::string out = "report";
+    bool quick = false;
+    bool no_pictures = false;
+    std::optional<double> rating;
+};
+
+/// A line on the standard error, if that is a terminal.
+class BenchProgress {
+  public:
+    BenchProgress() = default;
+    BenchProgress(const BenchProgress&) = delete;
+    BenchProgress& operator=(const BenchProgress&) = delete;
+    ~BenchProgress() {
+        if (shown_) printLine(stderr, "");
+    }
+
+    void update(const thesis::Position& position) {
+        const auto now = Clock::now();
+        if (!shown_ || now < next_) return;
+        next_ = now + std::chrono::milliseconds(200);
+        constexpr int width = 30;
+        const int filled = static_cast<int>(position.part * width);
+        fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:3.0f} %  {}", "", filled, "", width - filled,
+                   100 * position.part, position.what);
+        std::fflush(stderr);
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    bool shown_ = isatty(STDERR_FILENO) == 1;
+    Clock::time_point next_ = Clock::now();
+};
+
+void drawPicture(const RecordingReader& recording, const thesis::Picture& picture) {
+    ViewExports exports;
+    exports.png = picture.file.string();
+    exports.time = picture.time;
+    exports.camera = picture.camera;
+    exports.size = {720, 450};
+    writeViewExports(recording, exports);
+}
+
+thesis::BenchOutcome measure(const BenchArguments& arguments) {
+    BenchProgress progress;
+    thesis::BenchOptions options;
+    options.out = arguments.out;
+    options.only = arguments.only;
+    options.extent = arguments.quick ? thesis::Extent::quick : thesis::Extent::full;
+    options.rating = arguments.rating;
+    options.progress = [&](const thesis::Position& position) { progress.update(position); };
+    options.interrupted = interrupted;
+    if (!arguments.no_pictures) options.picture = drawPicture;
+    return thesis::runBench(options);
+}
+
+int runThesis(const BenchArguments& arguments) {
+    noteInterrupts();
+    try {
+        const thesis::BenchOutcome outcome = measure(arguments);
+        printOut(outcome.summary);
+        for (const std::string& warning : outcome.warnings) printLine(stderr, "cairn: warning: " + warning);
+        for (const std::string& broken : outcome.broken) printError(broken);
+        const std::string files = outcome.page.empty() ? outcome.results.string() : outcome.page.string();
+        printOut(fmt::format("written: {}\n", files));
+        return outcome.broken.empty() ? fine : run_failed;
+    } catch (const thesis::Interrupted&) {
+        printError("interrupted; the same command goes on where it was");
+        return run_failed;
+    }
+}
+
+}  // namespace
+
+void addBench(CLI::App& app, int& exit_code) {
+    CLI::App* bench = app.add_subcommand("bench", "Measure");
+    bench->require_subcommand(1);
+    CLI::App* command = bench->add_subcommand("thesis", "Repeat every benchmark of the thesis and write a report");
+    auto arguments = std::make_shared<BenchArguments>();
+    command->add_option("--only", arguments->only, "Sections such as 5.3; default: all")->delimiter(',');
+    command->add_option("--out", arguments->out, "Folder of the report; default: report")->type_name("DIR");
+    command->add_flag("--quick", arguments->quick, "Shortened, once: for the signs of the results, not the numbers");
+    command->add_flag("--no-pictures", arguments->no_pictures, "Draw no pictures");
+    command
+        ->add_option("--rating", arguments->rating,
+                     "PassMark single-thread rating of this processor, for the factor to the thesis's")
+        ->check(CLI::PositiveNumber);
+    command->callback([arguments, &exit_code] { exit_code = runThesis(*arguments); });
+}
+
+}  // namespace cairn::cli
