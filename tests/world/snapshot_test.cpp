@@ -56,6 +56,7 @@ class Pile {
         if (i % 3 == 0) d.shape = Sphere{size / 2};
         if (i % 3 == 1) d.shape = Box{Vec3(size, size, 1.5 * size)};
         if (i % 3 == 2) d.shape = Capsule{size / 2, size};
+        if (i % 6 == 5) d.shape = Cylinder{size / 2, size};
         d.material = i % 2 == 0 ? oak_ : steel_;
         d.pose = {Vec3(0.13 * (i % 4), 0.13 * (i / 4 % 3), 0.1 + 0.15 * (i % 11)), Quat(1, 0.1 * (i % 7), 0.2, 0)};
         d.name = i % 4 == 0 ? "body " + std::to_string(i) : "";
