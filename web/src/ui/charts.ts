@@ -2,7 +2,7 @@
 import type { Sample } from '../model';
 import { stageHex } from '../view/palette';
 import { niceAbove } from '../view/bodies';
-import { h, significant } from './dom';
+import { compact, h, significant } from './dom';
 
 interface Series { label: string; colour: string; field: string; scale?: number }
 interface Plan { title: string; unit: string; stacked: boolean; line?: { value: number; label: string }; series: Series[] }
@@ -59,7 +59,7 @@ class Chart {
     for (const part of [0, 0.5, 1]) {
       const at = Math.round(y(part * top)) + 0.5;
       line(context, left, at, width - 6, at);
-      context.fillText(significant(part * top, 2), left - 5, at + 3);
+      context.fillText(compact(part * top), left - 5, at + 3);
     }
     context.textAlign = 'center';
     for (const t of ticks(data.from, data.to)) context.fillText(`${significant(t)} s`, x(t), height - 3);
@@ -76,7 +76,7 @@ class Chart {
       line(context, left, at, width - 6, at);
       context.setLineDash([]);
       context.textAlign = 'left';
-      context.fillText(this.plan.line.label, left + 4, at - 3);
+      if (at < height - bottom - 12) context.fillText(this.plan.line.label, left + 4, Math.max(10, at - 3));
     }
     if (data.cursor !== null) {
       context.strokeStyle = ink;
@@ -146,8 +146,8 @@ class Chart {
     const texts = data.runs.map((run) => {
       const sample = data.cursor === null ? run.at(-1) : run.findLast((s) => s.time <= data.cursor! + 1e-9) ?? run[0];
       if (!sample) return '–';
-      if (this.plan.stacked) return significant(this.plan.series.reduce((sum, s) => sum + this.value(sample, s), 0));
-      return this.plan.series.map((s) => significant(this.value(sample, s))).join(' · ');
+      if (this.plan.stacked) return compact(this.plan.series.reduce((sum, s) => sum + this.value(sample, s), 0));
+      return this.plan.series.map((s) => compact(this.value(sample, s))).join(' · ');
     });
     this.values.textContent = `${texts.join(' | ')} ${this.plan.unit}`;
   }

@@ -75,3 +75,11 @@ export function significant(value: number, digits = 3): string {
   const text = Math.abs(value) >= 1e5 || Math.abs(value) < 1e-4 ? value.toExponential(digits - 1) : value.toPrecision(digits);
   return text.includes('e') ? text : String(Number(text));
 }
+
+/** A number for an axis: short, with k and M. */
+export function compact(value: number): string {
+  if (Math.abs(value) >= 1e6) return `${significant(value / 1e6)}M`;
+  if (Math.abs(value) >= 1e4) return `${significant(value / 1e3)}k`;
+  if (Math.abs(value) >= 1000) return String(Math.round(value));
+  return significant(value);
+}

@@ -8,8 +8,8 @@ const qualitativeHex = [
   '#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9', '#d55e00', '#b8a800', '#7a5195', '#5ba98a', '#a3683b',
   '#4a7fc1', '#c9a26b',
 ];
-/** Cividis, for quantities: dark blue over grey to yellow. */
-const sequentialHex = ['#00224e', '#123570', '#3b496c', '#575d6d', '#707173', '#8a8678', '#a59c74', '#c3b369', '#e1cc55', '#fee838'];
+/** For quantities: blue over grey to yellow like cividis, but no darker than shaded bodies can bear. */
+const sequentialHex = ['#2b5fae', '#4c78b4', '#6f8fb4', '#93a3a9', '#b5b08c', '#d5bf63', '#f4d838'];
 
 export const qualitative: Rgb[] = qualitativeHex.map(toLinear);
 const sequentialColours: Rgb[] = sequentialHex.map(toLinear);

@@ -9,7 +9,7 @@ export type Theme = 'light' | 'dark';
 
 const looks = {
   light: { back: '#eceff2', ground: '#e3e6e9', line: 0.74, sky: '#ffffff', earth: '#b9b2a8', hemisphere: 1.25, sun: 2.5 },
-  dark: { back: '#14171b', ground: '#3c4249', line: 1.75, sky: '#c3d2e6', earth: '#2b2723', hemisphere: 0.75, sun: 2.3 },
+  dark: { back: '#14171b', ground: '#565d66', line: 1.6, sky: '#c3d2e6', earth: '#2b2723', hemisphere: 1.0, sun: 2.4 },
 };
 
 export interface Extent { centre: Vector3; radius: number; size: number }

@@ -33,6 +33,7 @@ export class Stage {
   private environment: Texture | null = null;
   private dirty = true;
   private drawn = 0;
+  private staleShadows = false;
   private lastTimes: number[] = [];
   private slowest = 0;
 
@@ -143,23 +144,25 @@ export class Stage {
   /** Draws if something changed. @param now [ms] @return true if it drew */
   render(now: number): boolean {
     if (!this.dirty) {
+      // The last picture of a movement gets its own shadows.
+      if (this.staleShadows) this.draw(true);
       this.lastTimes.length = 0;
       return false;
     }
     this.dirty = false;
-    this.draw();
+    this.draw(this.drawn % plans[this.quality].shadowEvery === 0);
     this.measure(now);
     return true;
   }
 
-  draw(): void {
+  draw(withShadows = true): void {
     const size = this.renderer.getSize(new Vector2());
     const columns = this.panels.length;
     const width = size.x / columns;
     this.renderer.setScissorTest(columns > 1);
     this.renderer.setClearColor(new Color(WorldPanel.background(this.theme)));
     const plan = plans[this.quality];
-    const withShadows = this.drawn % plan.shadowEvery === 0;
+    this.staleShadows = !withShadows;
     this.drawn++;
     this.panels.forEach((panel, i) => {
       panel.setShadows(this.shadows, plan.shadow);
