@@ -3,10 +3,10 @@
 //   --out      the page (default: dist/index.html)
 //   --gzip     the page, compressed
 //   --bytes    the compressed page as a comma-separated list of numbers, for a C++ array
-import { build } from 'esbuild';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
 import { dirname, join, resolve } from 'node:path';
-import { fileURLToPath } from 'node:url';
+import { fileURLToPath, pathToFileURL } from 'node:url';
 import { gzipSync } from 'node:zlib';
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -16,6 +16,9 @@ for (let i = 2; i < process.argv.length; i += 2) {
   if (!(name in options) || process.argv[i + 1] === undefined) throw new Error(`unknown option ${process.argv[i]}`);
   options[name] = resolve(process.argv[i + 1]);
 }
+
+// The bundler is installed where the other dependencies are, which need not be above this file.
+const { build } = createRequire(pathToFileURL(join(options.modules, '..', 'package.json')))('esbuild');
 
 async function bundle(entry) {
   const result = await build({
