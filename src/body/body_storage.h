@@ -32,7 +32,7 @@ struct BodyState {
     std::span<WakeReason> woken;         ///< why it woke in this step
 
     /// Subset of the shock propagation; empty unless the step is traced.
-    std::span<std::int32_t> shock_stage;
+    std::span<std::int32_t> shock_stage{};
 
     std::size_t size() const { return kind.size(); }
     bool isFixed(BodyIndex i) const { return kind[i] != BodyKind::dynamic; }
