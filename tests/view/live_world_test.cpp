@@ -1,0 +1,185 @@
+/// @file What viewers can do with a live world, and the messages about it.
+#include "view/live_world.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "view/frame_message.h"
+
+namespace cairn::view {
+namespace {
+
+LiveWorld tower(int boxes = 4) {
+    Scene scene = builtInScene("tower:" + std::to_string(boxes));
+    return LiveWorld(scene, "tower", settingsFor(scene));
+}
+
+BodyId lastBody(const LiveWorld& world) {
+    return world.bodies().back();
+}
+
+TEST(LiveWorld, StepsExactlyAsTheLibraryDoes) {
+    const Scene scene = builtInScene("tower:4");
+    SceneRun run(scene, settingsFor(scene));
+    LiveWorld world = tower();
+    int samples = 0;
+    for (int i = 0; i < 80; ++i) {
+        run.step();
+        if (world.step()) ++samples;
+    }
+    EXPECT_EQ(world.world().stateHash(), run.world().stateHash());
+    EXPECT_EQ(samples, 10);
+    world.reset();
+    EXPECT_EQ(world.world().stepCount(), 0);
+}
+
+TEST(LiveWorld, TheRosterFollowsTheWorld) {
+    LiveWorld world = tower();
+    const std::uint32_t epoch = world.epoch();
+    const BodyId ball = world.throwBall({{0, -3, 1}, {0, 10, 0}, 0.1, "iron"});
+    const RosterChange added = world.updateRoster();
+    ASSERT_EQ(added.added.size(), 1U);
+    EXPECT_EQ(added.added[0], ball);
+    EXPECT_EQ(world.epoch(), epoch + 1);
+    EXPECT_EQ(world.describeChange(added)["added"][0]["shape"]["type"], "sphere");
+    world.remove(ball);
+    EXPECT_EQ(world.updateRoster().removed, (std::vector<std::uint32_t>{ball.index}));
+    EXPECT_TRUE(world.updateRoster().added.empty());
+    EXPECT_EQ(world.epoch(), epoch + 2);
+    EXPECT_THROW(world.remove(ball), StaleIdError);
+}
+
+TEST(LiveWorld, UnknownMaterialsAreRefusedAndCommonOnesAreThere) {
+    Scene empty;
+    empty.name = "empty";
+    empty.duration = 1;
+    LiveWorld world(empty, "empty", settingsFor(empty));
+    EXPECT_THROW(world.throwBall({{0, 0, 1}, {0, 0, 0}, 0.1, "butter"}), InputError);
+    EXPECT_NO_THROW(world.throwBall({{0, 0, 1}, {0, 0, 0}, 0.1, "oak"}));
+}
+
+TEST(LiveWorld, AGrabbedBodyComesToWhereItIsDragged) {
+    LiveWorld world = tower(1);
+    const BodyId box = lastBody(world);
+    const Vec3 target(0.5, 0.3, 1.2);
+    world.grab(1, {box, world.world().pose(box).position});
+    world.drag(1, {target});
+    EXPECT_EQ(world.springLines().size(), 1U);
+    for (int i = 0; i < 720; ++i) world.step();
+    // Held against gravity a spring of frequency ω hangs g/ω² lower.
+    EXPECT_LT((world.world().pose(box).position - target).norm(), 0.08);
+    world.release(1);
+    EXPECT_TRUE(world.springLines().empty());
+    EXPECT_THROW(world.drag(1, {target}), InputError);
+}
+
+TEST(LiveWorld, GripsEndWithTheirBodyAndFixedBodiesCannotBeGrabbed) {
+    LiveWorld world = tower(2);
+    const BodyId box = lastBody(world);
+    world.grab(1, {box, world.world().pose(box).position});
+    world.remove(box);
+    EXPECT_THROW(world.drag(1, {Vec3::Zero()}), InputError);
+    world.updateRoster();
+    const BodyId other = lastBody(world);
+    world.freeze({other, true});
+    EXPECT_TRUE(world.world().isFixed(other));
+    EXPECT_THROW(world.grab(1, {other, Vec3::Zero()}), InputError);
+    world.freeze({other, false});
+    EXPECT_NO_THROW(world.grab(1, {other, Vec3::Zero()}));
+}
+
+TEST(LiveWorld, TheDialGoesFromPresetToPreset) {
+    LiveWorld world = tower();
+    EXPECT_EQ(world.dial(), 0.0);
+    world.setDial(1);
+    EXPECT_EQ(world.world().settings().steps_per_second, 960);
+    EXPECT_EQ(world.world().settings().correction.penetration_threshold,
+              Settings::preset(Preset::accuracy).correction.penetration_threshold);
+    world.setDial(0.5);
+    const Settings middle = world.world().settings();
+    EXPECT_EQ(middle.steps_per_second, 480);
+    EXPECT_NEAR(middle.correction.penetration_threshold, std::sqrt(1.74e-3 * 1e-4), 1e-9);
+    world.setField({"damping", 0.1});
+    EXPECT_EQ(world.dial(), std::nullopt);
+    EXPECT_THROW(world.setField({"damping", 7.0}), InputError);
+    EXPECT_THROW(world.setField({"no_such_field", 7.0}), InputError);
+    EXPECT_EQ(world.world().settings().gravity_damping.damping, 0.1);
+}
+
+TEST(LiveWorld, ChangingThreadsKeepsTheDial) {
+    LiveWorld world = tower();
+    world.setField({"threads", std::int64_t{2}});
+    EXPECT_EQ(world.dial(), 0.0);
+    world.setDial(1);
+    EXPECT_EQ(world.world().settings().parallel.threads, 2);
+}
+
+TEST(LiveWorld, ABadSceneLeavesTheOldOne) {
+    LiveWorld world = tower();
+    world.step();
+    EXPECT_THROW(world.load(parseScene("{}", "a.json"), "a.json"), InputError);
+    EXPECT_EQ(world.world().stepCount(), 1);
+    const std::uint32_t epoch = world.epoch();
+    world.load(builtInScene("tower:2"), "tower:2");
+    EXPECT_GT(world.epoch(), epoch);
+    EXPECT_EQ(world.world().stepCount(), 0);
+}
+
+TEST(LiveWorld, TheSelectionTellsStateContactsAndBatch) {
+    LiveWorld world = tower(3);
+    for (int i = 0; i < 20; ++i) world.step();
+    const BodyId box = world.bodies()[2];
+    const auto selection = world.describeSelection(box);
+    EXPECT_EQ(selection["position"][2], world.world().pose(box).position.z());
+    EXPECT_EQ(selection["mass"], world.world().mass(box));
+    std::size_t contacts = 0;
+    for (const ContactInfo& contact : world.world().contacts())
+        contacts += contact.a == box || contact.b == box ? 1U : 0U;
+    EXPECT_EQ(selection["contacts"].size(), contacts);
+    EXPECT_GT(contacts, 3U);
+    EXPECT_EQ(selection["batch"]["bodies"], 3);
+}
+
+TEST(FrameMessage, HoldsThePosesAndTheLayersAskedFor) {
+    LiveWorld world = tower(3);
+    for (int i = 0; i < 20; ++i) world.step();
+    const Layers all = 255;
+    const SharedMessage message =
+        makeFrameMessage(world.world(), world.bodies(), 9, all, {{Vec3::Zero(), Vec3::UnitX()}});
+    ASSERT_EQ(message->kind, Message::Kind::binary);
+    const std::string& bytes = message->bytes;
+    const auto read = [&](std::size_t at, auto value) {
+        std::memcpy(&value, bytes.data() + at, sizeof(value));
+        return value;
+    };
+    EXPECT_EQ(read(0, std::uint32_t{}), 1U);
+    EXPECT_EQ(read(4, std::uint32_t{}), 9U);
+    EXPECT_EQ(read(8, std::uint64_t{}), 20U);
+    EXPECT_EQ(read(16, double{}), world.world().time());
+    const std::size_t slots = read(24, std::uint32_t{});
+    EXPECT_EQ(slots, world.bodies().back().index + 1U);
+    std::vector<std::uint32_t> kinds;
+    for (std::size_t at = 32; at < bytes.size();) {
+        const auto kind = read(at, std::uint32_t{});
+        const auto size = read(at + 4, std::uint32_t{});
+        kinds.push_back(kind);
+        if (kind == 1) {
+            ASSERT_EQ(size, 12 * slots);
+            for (const BodyId id : world.bodies()) {
+                EXPECT_EQ(read(at + 8 + 12 * id.index + 8, float{}),
+                          static_cast<float>(world.world().pose(id).position.z()));
+            }
+        }
+        if (kind == 11) {
+            EXPECT_EQ(size, 48 * world.world().contacts().size());
+        }
+        at += 8 + (size + 3) / 4 * 4;
+        ASSERT_LE(at, bytes.size());
+    }
+    EXPECT_EQ(kinds, (std::vector<std::uint32_t>{1, 2, 3, 4, 5, 6, 11, 7, 8, 9, 10, 12}));
+    EXPECT_LT(makeFrameMessage(world.world(), world.bodies(), 9, 0, {})->bytes.size(), bytes.size());
+}
+
+}  // namespace
+}  // namespace cairn::view
