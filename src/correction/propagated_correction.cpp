@@ -18,7 +18,8 @@ std::int64_t moveBodies(const Propagation& search, const BodyState& bodies) {
 }
 
 /// Brings the contacts of all moved bodies up to date. @source thesis (2.3.7)
-void updateContacts(const Propagation& search, const ContactsOfBodies& contacts_of, std::span<Contact> contacts) {
+void updateContacts(const Propagation& search, const ContactsOfBodies& contacts_of, std::span<Contact> contacts,
+                    PushGraph& graph) {
     for (const BodyIndex body : search.moved()) {
         for (const std::uint32_t index : contacts_of[body]) {
             Contact& contact = contacts[index];
@@ -28,6 +29,8 @@ void updateContacts(const Propagation& search, const ContactsOfBodies& contacts_
             if (body == contact.b && share_a > 0) continue;
             contact.point += (0.5 * (share_a + share_b)) * search.displacement();
             contact.distance += (share_a - share_b) * search.displacement().dot(contact.normal);
+            graph.distancesChanged(contact.a);
+            graph.distancesChanged(contact.b);
         }
     }
 }
@@ -38,22 +41,23 @@ CorrectionCounts PropagatedCorrection::correct(const BatchView& batch, const Con
                                                std::span<Contact> contacts, const BodyState& bodies,
                                                const CorrectionSettings& settings) {
     const double threshold = -settings.penetration_threshold;  // thr_pen
-    const ContactGraph graph{contacts_of, contacts, bodies, settings.remaining_penetration * threshold};
+    const double remaining = settings.remaining_penetration * threshold;
     best_.reserve(bodies.size());
     trial_.reserve(bodies.size());
     penetrating_.clear();
     for (const std::uint32_t index : batch.contacts) {
         if (contacts[index].distance < threshold) penetrating_.push_back(index);
     }
+    graph_.reset(contacts_of, contacts, bodies, remaining);
 
     CorrectionCounts counts;
     counts.penetrating = static_cast<std::int64_t>(penetrating_.size());
     for (const std::uint32_t index : penetrating_) {
         // The correction of another contact may have corrected this one.
         if (!(contacts[index].distance < threshold)) continue;
-        if (!choose(contacts[index], graph)) continue;
+        if (!choose(contacts[index], bodies, remaining)) continue;
         counts.displaced += moveBodies(best_, bodies);
-        updateContacts(best_, contacts_of, contacts);
+        updateContacts(best_, contacts_of, contacts, graph_);
     }
     for (const std::uint32_t index : penetrating_) {
         if (contacts[index].distance < threshold) {
@@ -65,15 +69,15 @@ CorrectionCounts PropagatedCorrection::correct(const BatchView& batch, const Con
     return counts;
 }
 
-bool PropagatedCorrection::choose(const Contact& contact, const ContactGraph& graph) {
+bool PropagatedCorrection::choose(const Contact& contact, const BodyState& bodies, double remaining) {
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
     CandidateKind best_kind = CandidateKind::normal;
     bool found = false;
-    for (const Candidate& candidate : listCandidates(contact, graph.bodies, graph.remaining)) {
+    for (const Candidate& candidate : listCandidates(contact, bodies, remaining)) {
         // On a tie a step back along the velocity replaces one along the normal, so it may move as many bodies.
         const bool wins_tie = candidate.kind == CandidateKind::velocity && best_kind == CandidateKind::normal;
         const std::size_t limit = wins_tie ? fewest : fewest - 1;
-        if (trial_.run(candidate, graph, limit) != PropagationOutcome::valid) continue;
+        if (trial_.run(candidate, graph_, limit) != PropagationOutcome::valid) continue;
         std::swap(best_, trial_);
         fewest = best_.moved().size();
         best_kind = candidate.kind;

@@ -18,10 +18,11 @@ class PropagatedCorrection final : public Correction {
 
   private:
     /// Finds the best candidate of a contact and leaves it in best_. @return false if none is valid
-    bool choose(const Contact& contact, const ContactGraph& graph);
+    bool choose(const Contact& contact, const BodyState& bodies, double remaining);
 
     Propagation best_;
     Propagation trial_;
+    PushGraph graph_;
     std::vector<std::uint32_t> penetrating_;
 };
 

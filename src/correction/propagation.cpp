@@ -15,42 +15,53 @@ void Propagation::reserve(std::size_t slots) {
     shorter_.reserve(room);
 }
 
-PropagationOutcome Propagation::run(const Candidate& candidate, const ContactGraph& graph, std::size_t limit) {
+PropagationOutcome Propagation::run(const Candidate& candidate, PushGraph& graph, std::size_t limit) {
     ++search_;
     displacement_ = candidate.displacement;
-    other_ = candidate.other;
     moved_.clear();
     stack_.clear();
     shorter_.clear();
     if (limit == 0) return PropagationOutcome::abandoned;
-    note(candidate.body, 1);
+    note(candidate.body, 1, {});
     stack_.push_back({1, candidate.body});
-    for (Push push{}; pop(push);) {
-        if (!pushNeighbours(push, graph)) return PropagationOutcome::invalid;
+    for (Open open{}; pop(open);) {
+        if (graph.isBlocked(open.body, open.share, candidate) || !pushNeighbours(open, candidate, graph)) {
+            rememberWayTo(open.body, candidate, graph);
+            return PropagationOutcome::invalid;
+        }
         if (moved_.size() > limit) return PropagationOutcome::abandoned;
     }
     return PropagationOutcome::valid;
 }
 
-/// Takes the next push. @return false if there is none
-bool Propagation::pop(Push& push) {
+/// Tells the graph how the push came to a body from where it is blocked.
+void Propagation::rememberWayTo(BodyIndex body, const Candidate& candidate, PushGraph& graph) const {
+    while (body != candidate.body) {
+        const Way& way = notes_[body].pushed_by;
+        graph.rememberWay(way.body, displacement_, way.link);
+        body = way.body;
+    }
+}
+
+/// Takes the next body. @return false if there is none
+bool Propagation::pop(Open& open) {
     if (!stack_.empty()) {
-        push = stack_.back();
+        open = stack_.back();
         stack_.pop_back();
         return true;
     }
     while (!shorter_.empty()) {
         std::pop_heap(shorter_.begin(), shorter_.end());
-        push = shorter_.back();
+        open = shorter_.back();
         shorter_.pop_back();
         // A body that was pushed further in the meantime has already been processed with that.
-        if (push.share == share(push.body)) return true;
+        if (open.share == share(open.body)) return true;
     }
     return false;
 }
 
 /// Associates a displacement with a body if it is longer than the one it has. @return whether it is
-bool Propagation::note(BodyIndex body, double share) {
+bool Propagation::note(BodyIndex body, double share, const Way& pushed_by) {
     Note& known = notes_[body];
     if (known.search != search_) {
         if (!(share > 0)) return false;
@@ -58,33 +69,37 @@ bool Propagation::note(BodyIndex body, double share) {
     } else if (!(share > known.share)) {
         return false;
     }
-    known = {search_, share};
+    known = {search_, share, pushed_by};
     return true;
 }
 
 /// Algorithm 1 for one body. @return false if the search is invalid
-bool Propagation::pushNeighbours(const Push& push, const ContactGraph& graph) {
-    for (const std::uint32_t index : graph.contacts_of[push.body]) {
-        const Contact& contact = graph.contacts[index];
-        const bool is_a = contact.a == push.body;
-        const BodyIndex neighbour = is_a ? contact.b : contact.a;
-        const double along_n = displacement_.dot(contact.normal);
-        const double towards = is_a ? -along_n : along_n;       // of the first displacement; n points from B to A
-        const double gap = contact.distance - graph.remaining;  // (2.5.6)
-        const double approach = push.share * towards;           // dX·n_XY
-        // (2.3.4), (2.3.5); both are false for what is not a number, so nothing travels through it.
-        if (!(approach > 0 && approach > gap)) continue;
-        if (graph.bodies.isFixed(neighbour) || neighbour == other_) return false;
-        // (2.3.6) with all vectors as multiples of the first: (s − e)/s · dX, s = share·towards.
-        if (gap > 0) {
-            const double rest = push.share - gap / towards;
-            if (!note(neighbour, rest)) continue;
-            shorter_.push_back({rest, neighbour});
-            std::push_heap(shorter_.begin(), shorter_.end());
-        } else if (note(neighbour, push.share)) {
-            stack_.push_back({push.share, neighbour});
+bool Propagation::pushNeighbours(const Open& open, const Candidate& candidate, PushGraph& graph) {
+    std::size_t straightest = stack_.size();
+    double furthest = 0;
+    const std::span<const PushLink> links = graph.linksOf(open.body);
+    for (std::uint32_t i = 0; i < links.size(); ++i) {
+        const PushLink& link = links[i];
+        const Push push = pushThrough(link, open.share, displacement_);
+        if (!push.happens) continue;
+        if (link.neighbour_fixed || link.neighbour == candidate.other) {
+            graph.rememberWay(open.body, displacement_, i);
+            return false;
         }
+        if (!note(link.neighbour, push.share, {open.body, i})) continue;
+        if (push.share < open.share) {
+            shorter_.push_back({push.share, link.neighbour});
+            std::push_heap(shorter_.begin(), shorter_.end());
+            continue;
+        }
+        if (push.towards > furthest) {
+            furthest = push.towards;
+            straightest = stack_.size();
+        }
+        stack_.push_back({push.share, link.neighbour});
     }
+    // What lies straight ahead goes on first: it leads to whatever blocks the search in the fewest steps.
+    if (straightest < stack_.size()) std::swap(stack_[straightest], stack_.back());
     return true;
 }
 

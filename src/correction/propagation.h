@@ -13,19 +13,10 @@
 #include <span>
 #include <vector>
 
-#include "batches/batches.h"
-#include "body/contact.h"
 #include "correction/candidate.h"
+#include "correction/push_graph.h"
 
 namespace cairn {
-
-/// What a search reads.
-struct ContactGraph {
-    const ContactsOfBodies& contacts_of;
-    std::span<const Contact> contacts;
-    const BodyState& bodies;
-    double remaining;  ///< f·thr_pen: the distance down to which contacts may be pushed [m], ≤ 0
-};
 
 /// How a search ended.
 enum class PropagationOutcome : std::uint8_t {
@@ -42,7 +33,7 @@ class Propagation {
     void reserve(std::size_t slots);
 
     /// Searches what the candidate's displacement moves. @param limit largest number of bodies worth knowing about
-    PropagationOutcome run(const Candidate& candidate, const ContactGraph& graph, std::size_t limit);
+    PropagationOutcome run(const Candidate& candidate, PushGraph& graph, std::size_t limit);
 
     /// The displacement of the first body [m, W].
     const Vec3& displacement() const { return displacement_; }
@@ -55,29 +46,36 @@ class Propagation {
     }
 
   private:
+    /// One link of one body.
+    struct Way {
+        BodyIndex body = 0;
+        std::uint32_t link = 0;
+    };
     /// The longest displacement found for a body; counts only in the search that wrote it.
     struct Note {
         std::uint64_t search = 0;
         double share = 0;
+        Way pushed_by;  ///< of no meaning for the first body
     };
-    struct Push {
+    /// A body that is moved, but has not pushed yet.
+    struct Open {
         double share;
         BodyIndex body;
 
-        friend bool operator<(const Push& left, const Push& right) { return left.share < right.share; }
+        friend bool operator<(const Open& left, const Open& right) { return left.share < right.share; }
     };
 
-    bool note(BodyIndex body, double share);
-    bool pushNeighbours(const Push& push, const ContactGraph& graph);
-    bool pop(Push& push);
+    bool note(BodyIndex body, double share, const Way& pushed_by);
+    bool pushNeighbours(const Open& open, const Candidate& candidate, PushGraph& graph);
+    void rememberWayTo(BodyIndex body, const Candidate& candidate, PushGraph& graph) const;
+    bool pop(Open& open);
 
     std::vector<Note> notes_;  ///< [slots]
     std::vector<BodyIndex> moved_;
-    std::vector<Push> stack_;    ///< pushes as long as the present one, which is the longest
-    std::vector<Push> shorter_;  ///< max-heap of the others
+    std::vector<Open> stack_;    ///< those pushed as far as the present one, which is the furthest
+    std::vector<Open> shorter_;  ///< max-heap of the others
     std::uint64_t search_ = 0;   ///< number of the present search; no entry of notes_ is ever cleared
     Vec3 displacement_ = Vec3::Zero();
-    BodyIndex other_ = 0;
 };
 
 }  // namespace cairn

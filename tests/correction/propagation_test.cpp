@@ -17,14 +17,15 @@ constexpr BodyIndex nobody = 1000;
 /// Bodies pushed by the displacement of one of them.
 struct Pushing : ContactScene {
     Propagation search;
+    PushGraph graph;
 
     PropagationOutcome push(BodyIndex body, const Vec3& displacement, std::size_t limit = no_limit,
                             BodyIndex other = nobody) {
         const ContactsOfBodies table = contactsOfBodies();
         const BodyState bodies = state();
         search.reserve(bodies.size());
-        return search.run({body, other, CandidateKind::normal, displacement}, {table, contacts, bodies, remaining()},
-                          limit);
+        graph.reset(table, contacts, bodies, remaining());
+        return search.run({body, other, CandidateKind::normal, displacement}, graph, limit);
     }
     Vec3 displacementOf(BodyIndex body) const { return search.share(body) * search.displacement(); }
     std::vector<BodyIndex> moved() const {
