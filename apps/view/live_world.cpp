@@ -23,7 +23,7 @@ constexpr std::array<std::pair<const char*, double>, 3> common_materials = {
     {{"oak", 800}, {"iron", 7874}, {"granite", 2800}}};
 
 // A grabbed body follows like a critically damped oscillator of this frequency: firm, without kicking a pile apart.
-constexpr double grip_frequency = 14;  // [rad/s]
+constexpr double grip_frequency = 20;  // [rad/s]
 constexpr double grip_damping = 1.0;   // part of critical
 
 /// A spring of a scene as a line; none if a body of it is gone.
