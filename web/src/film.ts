@@ -18,7 +18,7 @@ export async function makeFilm(
   stage.setTheme(order.theme);
   panel.setFrame(clip.frameAt(0), defaultOptions);
   stage.fix(order.width, order.height);
-  if (order.camera) stage.lookFrom(order.camera); else stage.frameAll();
+  if (order.camera) stage.lookFrom(order.camera); else stage.frameAll(0.95);
   stage.draw();
   for (const time of order.times) {
     panel.setFrame(clip.frameAt(time), defaultOptions);

@@ -96,12 +96,14 @@ export class BodiesPanel {
     const contacts = this.card.querySelector('#body-contacts')!;
     if (!live) return;
     const shownContacts = selection.contacts.slice(0, 12);
-    contacts.replaceChildren(h('h4', {}, `${selection.contacts.length} contact${selection.contacts.length === 1 ? '' : 's'}`),
-      h('table', { class: 'contacts' },
-        h('tr', {}, h('th', {}, 'with'), h('th', {}, 'distance'), h('th', {}, 'impulse')),
-        ...shownContacts.map((contact) => h('tr', {}, h('td', {}, contact.other), h('td', {}, quantity(contact.distance, 'm')),
-          h('td', {}, quantity(Math.hypot(...contact.impulse), 'N·s'))))),
-      selection.contacts.length > shownContacts.length ? h('p', { class: 'note' }, `and ${selection.contacts.length - shownContacts.length} more`) : '');
+    const rest = selection.contacts.length - shownContacts.length;
+    contacts.replaceChildren(h('h4', {}, `${selection.contacts.length} contact${selection.contacts.length === 1 ? '' : 's'}`));
+    if (shownContacts.length === 0) return;
+    contacts.append(h('table', { class: 'contacts' },
+      h('tr', {}, h('th', {}, 'with'), h('th', {}, 'distance'), h('th', {}, 'impulse')),
+      ...shownContacts.map((contact) => h('tr', {}, h('td', {}, contact.other), h('td', {}, quantity(contact.distance, 'm')),
+        h('td', {}, quantity(Math.hypot(...contact.impulse), 'N·s'))))));
+    if (rest > 0) contacts.append(h('p', { class: 'note' }, `and ${rest} more`));
   }
 }
 

@@ -48,7 +48,7 @@ class Chart {
     const style = getComputedStyle(this.canvas);
     const ink = style.getPropertyValue('--soft').trim();
     const rule = style.getPropertyValue('--rule').trim();
-    const top = niceAbove(Math.max(this.largest(data), this.plan.line ? this.plan.line.value * 1.1 : 0, 1e-9));
+    const top = niceAbove(Math.max(this.largest(data), this.plan.line ? this.plan.line.value * 1.1 : 0, this.plan.unit === 'mm' ? 0.01 : 1));
     const x = (t: number): number => left + ((t - data.from) / Math.max(1e-9, data.to - data.from)) * (width - left - 6);
     const y = (v: number): number => height - bottom - (v / top) * (height - bottom - 6);
     context.font = '10px system-ui, sans-serif';

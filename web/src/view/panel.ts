@@ -92,7 +92,7 @@ export class WorldPanel {
     }
     reach = 1.25 ** Math.ceil(Math.log(Math.max(reach, 0.05)) / Math.log(1.25));
     this.sun.target.position.copy(centre);
-    this.sun.position.set(-0.42, -0.58, 1.05).normalize().multiplyScalar(3 * reach).add(centre);
+    this.sun.position.set(-0.8, -0.25, 0.85).normalize().multiplyScalar(3 * reach).add(centre);
     const camera = this.sun.shadow.camera;
     if (camera.right === reach) return;
     camera.left = camera.bottom = -reach;

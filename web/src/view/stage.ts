@@ -99,11 +99,11 @@ export class Stage {
     this.camera.updateProjectionMatrix();
   }
 
-  /** Looks at the first panel's extent from the front, a little from above. */
-  frameAll(): void {
+  /** Looks at the first panel's extent from the front, a little from above. @param margin 1 = as large as possible */
+  frameAll(margin = 1.3): void {
     const { centre, radius } = this.panels[0].extent;
     const wide = this.camera.aspect > 1 ? 1 : this.camera.aspect;
-    const distance = (1.3 * radius) / Math.sin((this.camera.fov * Math.PI) / 360) / Math.min(1, wide * 1.15);
+    const distance = (margin * radius) / Math.sin((this.camera.fov * Math.PI) / 360) / Math.min(1, wide * 1.15);
     const target = centre.clone();
     this.controls.target.copy(target);
     this.camera.position.set(-0.52, -0.86, 0.42).normalize().multiplyScalar(distance).add(target);
