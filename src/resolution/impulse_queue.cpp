@@ -28,8 +28,7 @@ void QueueSolver::begin(const BatchView& view, std::span<const Contact> contacts
     threshold_ = -settings.resolution_threshold;
     batch.gather(view, contacts, bodies);
     rows.build(batch);
-    constexpr std::size_t family = TournamentQueue::fan_out;
-    delta_.assign((batch.contacts.size() / family + 1) * family, infinity);
+    delta_.assign(batch.contacts.size() + 1, infinity);
 }
 
 RunOutcome QueueSolver::run(std::span<const std::uint32_t> members, double iterations_per_contact) {
@@ -43,13 +42,15 @@ RunOutcome QueueSolver::run(std::span<const std::uint32_t> members, double itera
 
 template <class Queue>
 RunOutcome QueueSolver::runWith(Queue& queue, std::span<const std::uint32_t> members, std::int64_t limit) {
-    queue.reset(delta_, threshold_);
+    queue.reset(rows.lists(), delta_, threshold_);
     for (const std::uint32_t i : members) {
         const ContactFrame& contact = batch.contacts[i];
         const double delta = batch.velocityOf(contact)[0];
-        if (isResolvable(contact) && std::isfinite(delta)) delta_[i] = delta;
+        if (!isResolvable(contact) || !std::isfinite(delta)) continue;
+        delta_[i] = delta;
+        if (batch.bodies[contact.a].mass_inv > 0) queue.insert(i, contact.a);
+        if (batch.bodies[contact.b].mass_inv > 0) queue.insert(i, contact.b);
     }
-    queue.refresh(members);
     RunOutcome outcome;
     for (std::uint32_t next = queue.next(); next != no_contact; next = queue.next()) {
         if (outcome.iterations == limit) {
@@ -73,7 +74,7 @@ std::int64_t QueueSolver::resolve(Queue& queue, std::uint32_t contact) {
     if (!(velocity[0] < threshold_) || !std::isfinite(velocity[0])) {
         // What is not finite is never touched again, so that it cannot spread.
         delta_[contact] = std::isfinite(velocity[0]) ? velocity[0] : infinity;
-        queue.refresh(std::span(&contact, 1));
+        queue.contactOpened(contact);
         return 0;
     }
     delta_[contact] = velocity[0];
@@ -85,8 +86,8 @@ std::int64_t QueueSolver::resolve(Queue& queue, std::uint32_t contact) {
     if (a_changes) rows.update(frame.a, change.a, delta_);
     if (b_changes) rows.update(frame.b, change.b, delta_);
     // Only now, with the contacts of both bodies complete, may the queue look at δ.
-    if (a_changes) queue.refresh(rows.contactsOf(frame.a));
-    if (b_changes) queue.refresh(rows.contactsOf(frame.b));
+    if (a_changes) queue.bodyChanged(frame.a);
+    if (b_changes) queue.bodyChanged(frame.b);
     return 1;
 }
 

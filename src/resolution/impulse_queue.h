@@ -49,8 +49,8 @@ class QueueSolver {
 
     ResolutionSettings settings_;
     double threshold_ = 0;  ///< thr_res < 0 [m/s] (3.4.3)
-    /// Longer than the contacts: one for NormalRows, and to fill TournamentQueue's families.
-    std::vector<double> delta_;  ///< δ = ϑA0 − ϑB0 of the members [m/s]; all else has +∞, which updates keep
+    /// [contacts + 1] δ = ϑA0 − ϑB0 of the members [m/s]; all else has +∞, which updates keep. The last is NormalRows'.
+    std::vector<double> delta_;
     ArrayQueue array_queue_;
     TournamentQueue tournament_queue_;
     FirstEntryQueue first_entry_queue_;

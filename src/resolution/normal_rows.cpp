@@ -5,27 +5,27 @@
 namespace cairn {
 
 void NormalRows::count(const LocalBatch& batch) {
-    count_.assign(batch.bodies.size(), 0);
+    lists_.count.assign(batch.bodies.size(), 0);
     for (const ContactFrame& c : batch.contacts) {
-        if (!batch.isFixed(c.a)) ++count_[c.a];
-        if (!batch.isFixed(c.b)) ++count_[c.b];
+        if (!batch.isFixed(c.a)) ++lists_.count[c.a];
+        if (!batch.isFixed(c.b)) ++lists_.count[c.b];
     }
-    begin_.resize(batch.bodies.size());
+    lists_.begin.resize(batch.bodies.size());
     std::uint32_t end = 0;
-    for (std::size_t i = 0; i < count_.size(); ++i) {
-        begin_[i] = end;
-        end += (count_[i] + 1) / 2 * 2;
-        count_[i] = 0;  // counted again by place()
+    for (std::size_t i = 0; i < lists_.count.size(); ++i) {
+        lists_.begin[i] = end;
+        end += (lists_.count[i] + 1) / 2 * 2;
+        lists_.count[i] = 0;  // counted again by place()
     }
     const auto filler = static_cast<std::uint32_t>(batch.contacts.size());
-    contact_.assign(end, filler);
+    lists_.contact.assign(end, filler);
     const NormalRowPair::Lanes zero = NormalRowPair::Lanes::Zero();
     pair_.assign(end / 2, {zero, zero, zero, zero, zero, zero});
 }
 
 void NormalRows::place(std::uint32_t body, std::uint32_t contact, const Vec3& direction, const Vec3& r) {
-    const std::uint32_t at = begin_[body] + count_[body]++;
-    contact_[at] = contact;
+    const std::uint32_t at = lists_.begin[body] + lists_.count[body]++;
+    lists_.contact[at] = contact;
     NormalRowPair& pair = pair_[at / 2];
     const Eigen::Index lane = at % 2;
     const Vec3 angular = r.cross(direction);
@@ -56,9 +56,9 @@ void NormalRows::update(std::uint32_t body, const VelocityChange& change, std::s
         constexpr double infinity = std::numeric_limits<double>::infinity();
         return x < infinity ? x : infinity;
     };
-    const std::uint32_t* contact = contact_.data() + begin_[body];
-    const NormalRowPair* pair = pair_.data() + begin_[body] / 2;
-    for (const std::uint32_t* end = contact + count_[body]; contact < end; contact += 2, ++pair) {
+    const std::uint32_t* contact = lists_.contact.data() + lists_.begin[body];
+    const NormalRowPair* pair = pair_.data() + lists_.begin[body] / 2;
+    for (const std::uint32_t* end = contact + lists_.count[body]; contact < end; contact += 2, ++pair) {
         double& first = delta[contact[0]];
         double& second = delta[contact[1]];
         const Lanes sum = Lanes(first, second) + ((pair->linear_x * vx + pair->linear_y * vy + pair->linear_z * vz) +

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "resolution/contact_lists.h"
 #include "resolution/impulse.h"
 #include "resolution/local_batch.h"
 
@@ -27,9 +28,8 @@ class NormalRows {
     void build(const LocalBatch& batch);
 
     /// Contacts of a body, ascending.
-    std::span<const std::uint32_t> contactsOf(std::uint32_t body) const {
-        return std::span(contact_).subspan(begin_[body], count_[body]);
-    }
+    std::span<const std::uint32_t> contactsOf(std::uint32_t body) const { return lists_[body]; }
+    const ContactLists& lists() const { return lists_; }
 
     /// δ += change by the new velocities of one body, for all its contacts; a NaN becomes +∞.
     /// @param delta [contacts + 1] the last entry belongs to no contact
@@ -39,10 +39,9 @@ class NormalRows {
     void count(const LocalBatch& batch);
     void place(std::uint32_t body, std::uint32_t contact, const Vec3& direction, const Vec3& r);
 
-    std::vector<std::uint32_t> begin_;    ///< [bodies] offsets into contact_, even: each body begins a new pair
-    std::vector<std::uint32_t> count_;    ///< [bodies]
-    std::vector<std::uint32_t> contact_;  ///< contacts by body; an odd list is filled up with "contact" contacts.size()
-    std::vector<NormalRowPair> pair_;     ///< [contact_ / 2] rows in the same order
+    /// Every list begins with a new pair; an odd one is filled up with "contact" contacts.size().
+    ContactLists lists_;
+    std::vector<NormalRowPair> pair_;  ///< [lists_.contact / 2] rows in the same order
 };
 
 }  // namespace cairn

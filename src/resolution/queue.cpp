@@ -13,8 +13,9 @@ void ClosingList::reset(std::span<const double> delta, double threshold) {
     place_.assign(delta.size(), no_contact);
 }
 
-void ArrayQueue::reset(std::span<const double> delta, double threshold) {
+void ArrayQueue::reset(const ContactLists& lists, std::span<const double> delta, double threshold) {
     list_.reset(delta, threshold);
+    lists_ = &lists;
     delta_ = delta;
     updated_ = last_ = {};
 }
@@ -44,73 +45,98 @@ double smallestOfFamily(const double* family) {
                   lesser(lesser(family[4], family[5]), lesser(family[6], family[7])));
 }
 
-/// Index of the first member that has a value. @pre one has it
-std::size_t firstWith(const double* family, double value) {
+/// One bit for each member that has a value.
+unsigned membersWith(const double* family, double value) {
     unsigned mask = 0;  // without branches, which could not be foreseen
     for (unsigned i = 0; i < TournamentQueue::fan_out; ++i) mask |= static_cast<unsigned>(family[i] == value) << i;
-    return static_cast<std::size_t>(std::countr_zero(mask));
+    return mask;
 }
 
 }  // namespace
 
-void TournamentQueue::reset(std::span<const double> delta, double threshold) {
+void TournamentQueue::reset(const ContactLists& lists, std::span<const double> delta, double threshold) {
+    lists_ = &lists;
     delta_ = delta;
     threshold_ = threshold;
-    changed_.clear();
+    noted_.assign(lists.bodies(), no_contact);
     level_begin_.clear();
     std::size_t total = 0;
-    for (std::size_t nodes = delta.size() / fan_out;; nodes /= fan_out) {
-        nodes = (nodes + fan_out - 1) / fan_out * fan_out;
+    for (std::size_t nodes = lists.bodies();; nodes /= fan_out) {
+        nodes = std::max<std::size_t>((nodes + fan_out - 1) / fan_out, 1) * fan_out;
         level_begin_.push_back(total);
         total += nodes;
-        if (nodes <= fan_out) break;
+        if (nodes == fan_out) break;
     }
     nodes_.assign(total, infinity);
+    arranged_ = false;
 }
 
-void TournamentQueue::refresh(std::span<const std::uint32_t> contacts) {
-    std::size_t seen = SIZE_MAX;
-    for (const std::uint32_t i : contacts) {
-        const std::size_t node = i / fan_out;
-        if (node == seen) continue;
-        seen = node;
-        const double smallest = smallestOfFamily(&delta_[node * fan_out]);
-        const double value = smallest < threshold_ ? smallest : infinity;
-        if (value == nodes_[node]) continue;
-        nodes_[node] = value;
-        changed_.push_back(static_cast<std::uint32_t>(node));
-    }
+void TournamentQueue::insert(std::uint32_t contact, std::uint32_t body) {
+    const QueueEntry entry{delta_[contact], contact};
+    if (!(entry < QueueEntry{nodes_[body], noted_[body]})) return;
+    nodes_[body] = entry.delta;
+    noted_[body] = contact;
+    arranged_ = false;
 }
 
-void TournamentQueue::carryUp() {
+void TournamentQueue::arrange() {
     for (std::size_t level = 0; level + 1 < level_begin_.size(); ++level) {
         const double* below = &nodes_[level_begin_[level]];
         double* nodes = &nodes_[level_begin_[level + 1]];
-        std::size_t kept = 0;
-        std::size_t seen = SIZE_MAX;
-        for (const std::uint32_t child : changed_) {
-            const std::size_t node = child / fan_out;
-            if (node == seen) continue;
-            seen = node;
-            const double value = smallestOfFamily(below + node * fan_out);
-            if (value == nodes[node]) continue;
-            nodes[node] = value;
-            changed_[kept++] = static_cast<std::uint32_t>(node);
-        }
-        changed_.resize(kept);
+        const std::size_t families = (level_begin_[level + 1] - level_begin_[level]) / fan_out;
+        for (std::size_t i = 0; i < families; ++i) nodes[i] = smallestOfFamily(below + i * fan_out);
     }
-    changed_.clear();
+    arranged_ = true;
+}
+
+void TournamentQueue::bodyChanged(std::uint32_t body) {
+    double smallest = infinity;
+    std::uint32_t contact = no_contact;
+    for (const std::uint32_t i : (*lists_)[body]) {
+        const double delta = delta_[i];
+        contact = delta < smallest ? i : contact;
+        smallest = delta < smallest ? delta : smallest;
+    }
+    nodes_[body] = smallest;
+    noted_[body] = contact;
+    carryUp(body);
+}
+
+void TournamentQueue::carryUp(std::uint32_t body) {
+    std::size_t node = body;
+    for (std::size_t level = 0; level + 1 < level_begin_.size(); ++level) {
+        node /= fan_out;
+        nodes_[level_begin_[level + 1] + node] = smallestOfFamily(&nodes_[level_begin_[level] + node * fan_out]);
+    }
 }
 
 std::uint32_t TournamentQueue::next() {
-    carryUp();
-    const double smallest = smallestOfFamily(&nodes_[level_begin_.back()]);
-    if (smallest == infinity) return no_contact;
-    std::size_t index = 0;
-    for (std::size_t level = level_begin_.size(); level-- > 0;) {
-        index = index * fan_out + firstWith(&nodes_[level_begin_[level] + index * fan_out], smallest);
+    if (!arranged_) arrange();
+    while (true) {
+        const double smallest = smallestOfFamily(&nodes_[level_begin_.back()]);
+        if (!(smallest < threshold_)) return no_contact;
+        const std::uint32_t contact = searchFamily(level_begin_.size() - 1, 0, smallest);
+        if (outdated_.empty()) return contact;
+        for (const std::uint32_t body : outdated_) bodyChanged(body);
+        outdated_.clear();
     }
-    return static_cast<std::uint32_t>(index * fan_out + firstWith(&delta_[index * fan_out], smallest));
+}
+
+/// Goes down to all notes of a value: usually the two bodies of one contact. @return the lowest contact that has it
+std::uint32_t TournamentQueue::searchFamily(std::size_t level, std::size_t family, double smallest) {
+    std::uint32_t lowest = no_contact;
+    unsigned members = membersWith(&nodes_[level_begin_[level] + family * fan_out], smallest);
+    for (; members != 0; members &= members - 1) {
+        const std::size_t member = family * fan_out + static_cast<std::size_t>(std::countr_zero(members));
+        if (level > 0) {
+            lowest = std::min(lowest, searchFamily(level - 1, member, smallest));
+        } else if (delta_[noted_[member]] == smallest) {
+            lowest = std::min(lowest, noted_[member]);
+        } else {
+            outdated_.push_back(static_cast<std::uint32_t>(member));
+        }
+    }
+    return lowest;
 }
 
 }  // namespace cairn

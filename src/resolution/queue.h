@@ -1,7 +1,12 @@
 /// @file The list of closing contacts of Algorithm 9, in three forms with one interface. @source thesis §3.8
 ///
-/// All read δ from the solver's array, are told by refresh() which δ have changed (once all changes are made; telling
-/// twice is harmless), and give the next contact to resolve by next(). A contact is in the queue iff δ < threshold.
+/// All have one interface:
+/// - reset(lists, delta, threshold) empties the queue. `lists` are the contacts of each body, `delta` [m/s] is the
+///   solver's array of δ, of which none is ever a NaN; both must outlive the use. A contact closes iff δ < threshold.
+/// - insert(contact, body) adds a contact, once for each of its bodies that contacts can change.
+/// - bodyChanged(body) tells that the δ of all contacts of a body may have changed; only once all changes are made.
+/// - contactOpened(contact) tells that δ of a closing contact has grown to the threshold or more for another reason.
+/// - next() gives the closing contact to resolve next, or no_contact.
 /// The smallest δ wins; of equal ones the lower index, which makes ArrayQueue and TournamentQueue give the same order,
 /// bit for bit.
 ///
@@ -19,6 +24,8 @@
 #include <limits>
 #include <span>
 #include <vector>
+
+#include "resolution/contact_lists.h"
 
 namespace cairn {
 
@@ -78,16 +85,21 @@ class ClosingList {
 /// For few contacts: a linear search, left out when an updated contact closes at least as fast as the one before.
 class ArrayQueue {
   public:
-    void reset(std::span<const double> delta, double threshold);
-    void refresh(std::span<const std::uint32_t> contacts) {
-        for (const std::uint32_t i : contacts) {
-            if (list_.refresh(i)) updated_ = std::min(updated_, QueueEntry{delta_[i], i});
-        }
+    void reset(const ContactLists& lists, std::span<const double> delta, double threshold);
+    void insert(std::uint32_t contact, std::uint32_t) { refresh(contact); }
+    void bodyChanged(std::uint32_t body) {
+        for (const std::uint32_t i : (*lists_)[body]) refresh(i);
     }
+    void contactOpened(std::uint32_t contact) { refresh(contact); }
     std::uint32_t next();
 
   private:
+    void refresh(std::uint32_t contact) {
+        if (list_.refresh(contact)) updated_ = std::min(updated_, QueueEntry{delta_[contact], contact});
+    }
+
     ClosingList list_;
+    const ContactLists* lists_ = nullptr;
     std::span<const double> delta_;
     QueueEntry updated_;  ///< first of those refreshed since the last next()
     QueueEntry last_;     ///< what next() gave last: everything not refreshed since comes after it
@@ -96,36 +108,53 @@ class ArrayQueue {
 /// The comparison of §5.4: whichever contact stands first in the list.
 class FirstEntryQueue {
   public:
-    void reset(std::span<const double> delta, double threshold) { list_.reset(delta, threshold); }
-    void refresh(std::span<const std::uint32_t> contacts) {
-        for (const std::uint32_t i : contacts) list_.refresh(i);
+    void reset(const ContactLists& lists, std::span<const double> delta, double threshold) {
+        list_.reset(delta, threshold);
+        lists_ = &lists;
     }
+    void insert(std::uint32_t contact, std::uint32_t) { list_.refresh(contact); }
+    void bodyChanged(std::uint32_t body) {
+        for (const std::uint32_t i : (*lists_)[body]) list_.refresh(i);
+    }
+    void contactOpened(std::uint32_t contact) { list_.refresh(contact); }
     std::uint32_t next() const { return list_.entries().empty() ? no_contact : list_.entries().front().contact; }
 
   private:
     ClosingList list_;
+    const ContactLists* lists_ = nullptr;
 };
 
-/// For many contacts: a tree in which every node holds the smallest δ of `fan_out` neighbours of the level below, or +∞
-/// if none is below the threshold. Unlike in a heap nothing moves, and the contacts of a body, being neighbours, share
-/// nodes: a resolution looks once at each node it affects, whose eight children fill one cache line.
+/// For many contacts: a tree over the bodies. Each body notes the smallest δ of its contacts as it was when the body
+/// was refreshed last, and every node of the tree holds the smallest note of `fan_out` neighbours of the level below.
+///
+/// A resolution changes all contacts of two bodies: only these two are refreshed, which changes two notes and the few
+/// nodes above them. The notes of their neighbours may then be out of date, but never so that a contact is missed: a
+/// contact's δ is changed by its two bodies only, and is no smaller than the note of the one that changed it last. So
+/// the smallest note is no larger than the smallest δ. If it is the δ of the contact that it was taken from, that
+/// contact is the one to resolve next; if not, the body is refreshed, and the search goes on.
 class TournamentQueue {
   public:
     static constexpr std::size_t fan_out = 8;
 
-    /// @pre the size of delta is a multiple of fan_out, and no δ is ever a NaN
-    void reset(std::span<const double> delta, double threshold);
-    void refresh(std::span<const std::uint32_t> contacts);
+    void reset(const ContactLists& lists, std::span<const double> delta, double threshold);
+    void insert(std::uint32_t contact, std::uint32_t body);
+    void bodyChanged(std::uint32_t body);
+    void contactOpened(std::uint32_t) {}  // its bodies' notes are too small now, which next() finds out
     std::uint32_t next();
 
   private:
-    void carryUp();
+    void arrange();
+    void carryUp(std::uint32_t body);
+    std::uint32_t searchFamily(std::size_t level, std::size_t family, double smallest);
 
+    const ContactLists* lists_ = nullptr;
     std::span<const double> delta_;
     double threshold_ = 0;
-    std::vector<double> nodes_;             ///< levels from the lowest up, each filled up with +∞ to full families
+    std::vector<std::uint32_t> noted_;      ///< [bodies] the contact whose δ was noted; of equal ones the lowest
+    std::vector<double> nodes_;             ///< levels from the notes up, each filled up with +∞ to full families
     std::vector<std::size_t> level_begin_;  ///< [levels] offsets into nodes_; the last level is one family
-    std::vector<std::uint32_t> changed_;    ///< nodes of one level whose value is new, each run of equals once
+    std::vector<std::uint32_t> outdated_;   ///< bodies that next() found to be out of date
+    bool arranged_ = false;                 ///< all nodes above the notes belong to them
 };
 
 }  // namespace cairn
