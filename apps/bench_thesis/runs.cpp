@@ -142,6 +142,13 @@ Run plainRun(const std::string& scene, const Plan& plan) {
     return {scene, Preset::performance, Variant::plain, threadsFor(thesisScene(scene), plan)};
 }
 
+std::string processorPart(const ThesisScene& scene, const Plan& plan, double speedup) {
+    if (!plan.processor_rating) return fmt::format("{:.1f} times as fast, on another processor.", speedup);
+    const double factor = *plan.processor_rating / scene.machine.rating;
+    return fmt::format("{:.1f} times as fast; a core of this processor makes about {:.1f} of it, the program {:.1f}.",
+                       speedup, factor, speedup / factor);
+}
+
 std::string rowText(const ThesisScene& scene, const std::string& what) {
     return fmt::format("{}: {}", scene.name, what);
 }

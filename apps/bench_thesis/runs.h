@@ -50,6 +50,9 @@ std::int64_t threadsFor(const ThesisScene& scene, const Plan& plan);
 /// The run of §5.1.
 Run plainRun(const std::string& scene, const Plan& plan);
 
+/// The processor's part of a difference in time, and the rest, as a sentence. @param speedup over the thesis
+std::string processorPart(const ThesisScene& scene, const Plan& plan, double speedup);
+
 /// "stacks5: what", for rows of tables.
 std::string rowText(const ThesisScene& scene, const std::string& what);
 

@@ -10,15 +10,6 @@ namespace {
 
 constexpr double real_time_ms = 1000 / simulation_steps_per_second;
 
-/// The processor's part of a difference in time, and the rest. @param speedup over the thesis
-std::string explain(const ThesisScene& scene, const Plan& plan, double speedup) {
-    if (!plan.processor_rating) return fmt::format("{:.1f} times as fast, on a newer processor.", speedup);
-    const double factor = *plan.processor_rating / scene.machine.rating;
-    return fmt::format(
-        "{:.1f} times as fast, of which a core of this processor makes about {:.1f} and the program {:.1f}.", speedup,
-        factor, speedup / factor);
-}
-
 /// Tables 2 and 3: a scene's row, its figure and its pictures.
 void addScene(SectionResult& result, const ThesisScene& scene, const Plan& plan, const Series& series) {
     const std::string key = keyOf(plainRun(scene.name, plan));
@@ -28,12 +19,12 @@ void addScene(SectionResult& result, const ThesisScene& scene, const Plan& plan,
     result.entries.push_back({id + "/total", rowText(scene, "whole simulation"), "s", scene.total_s, series.total_s,
                               fmt::format("thesis: {}, {} threads; ours: {:.0f} threads", scene.machine.name,
                                           scene.machine.threads, series.threads),
-                              explain(scene, plan, scene.total_s / series.total_s)});
+                              processorPart(scene, plan, scene.total_s / series.total_s)});
     result.entries.push_back(
         {id + "/average", rowText(scene, "average simulation step"), "ms", scene.average_ms, average,
          fmt::format("{:.0f} % detection, {:.0f} % response; longest step {:.1f} ms", share(series.detection_ms),
                      share(series.response_ms), largest(series.total_ms)),
-         explain(scene, plan, scene.average_ms / average)});
+         processorPart(scene, plan, scene.average_ms / average)});
     result.figures.push_back(
         {id,
          scene.figure,
