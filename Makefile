@@ -1,5 +1,5 @@
 # The daily commands. Everything they need is installed when it is missing (Debian packages of tools/packages.txt).
-#   make run       build the release and run the main scene
+#   make run       build the release and run the main scene; where there is a display, show it in the browser
 #   make test      build the release and run all tests
 #   make sanitize  run the tests under the address, undefined-behaviour and thread sanitizers
 #   make thesis    repeat every benchmark of the thesis: report/index.html
@@ -21,6 +21,7 @@ run:
 	@cmake --preset release --log-level=WARNING
 	@cmake --build --preset release --target cairn_cli
 	build/release/cairn run $(SCENE) --record build/$(subst :,-,$(SCENE)).h5
+	@if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ]; then build/release/cairn view $(SCENE); fi
 
 test:
 	@tools/install_packages build test
