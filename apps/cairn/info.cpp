@@ -15,8 +15,8 @@ namespace cairn::cli {
 namespace {
 
 /// The names of the alternatives of Shape, in their order.
-constexpr std::array<std::string_view, std::variant_size_v<Shape>> shape_names = {"sphere", "box", "capsule", "plane",
-                                                                                  "cylinder"};
+constexpr std::array<std::string_view, std::variant_size_v<Shape>> shape_names = {
+    "sphere", "box", "capsule", "plane", "cylinder", "hull", "compound"};
 
 std::string line(std::string_view name, std::string_view value) {
     return fmt::format("{:<14} {}\n", name, value);

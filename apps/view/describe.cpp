@@ -54,6 +54,20 @@ json toJson(const Shape& shape) {
             [](const Cylinder& c) -> json {
                 return {{"type", "cylinder"}, {"radius", c.radius}, {"length", c.length}};
             },
+            [](const ConvexHull& h) -> json {
+                json points = json::array();
+                for (const Vec3& corner : h.corners()) points.push_back(toJson(corner));
+                return {{"type", "hull"}, {"points", points}};
+            },
+            [](const Compound& c) -> json {
+                json parts = json::array();
+                for (const CompoundPart& part : c.parts) {
+                    parts.push_back({{"shape", toJson(part.shape)},
+                                     {"position", toJson(part.pose.position)},
+                                     {"orientation", toJson(part.pose.orientation)}});
+                }
+                return {{"type", "compound"}, {"parts", parts}};
+            },
             [](const HalfSpace& h) -> json {
                 // The page expects a unit normal with the offset along it.
                 return {{"type", "plane"}, {"normal", toJson(Vec3(h.normal.normalized()))}, {"offset", h.offset}};
@@ -86,6 +100,8 @@ std::string describeShape(const Shape& shape) {
                        return fmt::format("cylinder, diameter {:.4g} cm, length {:.4g} cm", 200 * c.radius,
                                           100 * c.length);
                    },
+                   [](const ConvexHull& h) { return fmt::format("hull of {} corners", h.corners().size()); },
+                   [](const Compound& c) { return fmt::format("compound of {} parts", c.parts.size()); },
                    [](const HalfSpace&) { return std::string("half-space"); }},
         shape);
 }

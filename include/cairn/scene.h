@@ -19,12 +19,14 @@ namespace cairn {
 
 /// A body of a scene; its index in Scene::bodies is its number in recordings and events.
 struct SceneBody {
-    Shape shape = Sphere{};                ///< in its own frame B
+    Shape shape = Sphere{};                ///< in its own frame
     std::string material;                  ///< name of one of Scene::materials
     std::string name;                      ///< unique if not empty
     std::optional<double> mass;            ///< [kg]
-    Vec3 position = Vec3::Zero();          ///< [m, W]
-    Quat orientation = Quat::Identity();   ///< B to W
+    std::optional<Vec3> centre_of_mass;    ///< as that of BodyDescription
+    std::optional<Mat3> inertia;           ///< as that of BodyDescription
+    Vec3 position = Vec3::Zero();          ///< of the shape's frame [m, W]
+    Quat orientation = Quat::Identity();   ///< shape's frame to W
     Vec3 linear_velocity = Vec3::Zero();   ///< [m/s, W]
     Vec3 angular_velocity = Vec3::Zero();  ///< [rad/s, W]
     bool fixed = false;

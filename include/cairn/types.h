@@ -24,6 +24,13 @@ struct Pose {
 
     /// Maps a point of the posed frame into the outer frame. @param p [m, posed frame]
     Vec3 toOuter(const Vec3& p) const { return position + orientation * p; }
+    /// A pose in the posed frame as one in the outer frame.
+    Pose toOuter(const Pose& inner) const { return {toOuter(inner.position), orientation * inner.orientation}; }
+    /// The pose of the outer frame in the posed one.
+    Pose inverse() const {
+        const Quat back = orientation.conjugate();
+        return {back * Vec3(-position), back};
+    }
     /// Maps a point of the outer frame into the posed frame. @param p [m, outer frame]
     Vec3 toInner(const Vec3& p) const { return orientation.conjugate() * (p - position); }
 };

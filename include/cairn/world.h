@@ -19,10 +19,13 @@ namespace cairn {
 
 /// How a body begins.
 struct BodyDescription {
-    Shape shape = Sphere{};                ///< in its own frame B
+    Shape shape = Sphere{};                ///< in its own frame
     MaterialId material{};                 ///< must exist in the world
     std::optional<double> mass{};          ///< [kg], > 0; otherwise density times volume
-    Pose pose{};                           ///< of B in W; the quaternion is normalised, it must not be zero
+    std::optional<Vec3> centre_of_mass{};  ///< [m, frame of the shape]; otherwise that of the uniform solid
+    std::optional<Mat3> inertia{};  ///< about the centre of mass [kg·m², axes of the shape's frame]; otherwise that
+                                    ///< of the uniform solid about its own centre, with the body's mass
+    Pose pose{};                    ///< of the shape's frame in W; the quaternion is normalised, it must not be zero
     Vec3 linear_velocity = Vec3::Zero();   ///< of the centre of mass [m/s, W]
     Vec3 angular_velocity = Vec3::Zero();  ///< [rad/s, W]
     bool fixed = false;                    ///< never moves, infinite mass; half-spaces must be fixed
@@ -33,9 +36,9 @@ struct BodyDescription {
 /// A damped spring between two points. @source pe engine's springs, by behaviour
 struct SpringDescription {
     BodyId a{};                    ///< first body
-    Vec3 anchor_a = Vec3::Zero();  ///< [m, frame of A]
+    Vec3 anchor_a = Vec3::Zero();  ///< [m, frame of A's pose]
     std::optional<BodyId> b{};     ///< second body; none = a point of the world
-    Vec3 anchor_b = Vec3::Zero();  ///< [m, frame of B, or W without a second body]
+    Vec3 anchor_b = Vec3::Zero();  ///< [m, frame of B's pose, or W without a second body]
     double stiffness = 0;          ///< [N/m], ≥ 0
     double damping = 0;            ///< along the spring [N·s/m], ≥ 0
     double rest_length = 0;        ///< [m], ≥ 0
@@ -114,11 +117,14 @@ class World {
     const Shape& shape(BodyId id) const;
     const std::string& name(BodyId id) const;
     MaterialId material(BodyId id) const;
-    Pose pose(BodyId id) const;              ///< of B in W [m]
-    Vec3 linearVelocity(BodyId id) const;    ///< of the centre of mass [m/s, W]
+    Pose pose(BodyId id) const;            ///< of the shape's frame in W [m]
+    Vec3 centreOfMass(BodyId id) const;    ///< [m, W]; of spheres, boxes, capsules and cylinders the origin of the pose
+                                           ///< unless the description gave another
+    Vec3 linearVelocity(BodyId id) const;  ///< of the centre of mass [m/s, W]
     Vec3 angularVelocity(BodyId id) const;   ///< [rad/s, W]
     double mass(BodyId id) const;            ///< [kg]; infinite for fixed bodies
     Vec3 principalInertia(BodyId id) const;  ///< about the centre of mass [kg·m², B]; infinite for fixed bodies
+    Quat principalAxes(BodyId id) const;     ///< of the principal inertia: B to W
     bool isFixed(BodyId id) const;
     bool isAsleep(BodyId id) const;
 

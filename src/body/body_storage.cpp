@@ -31,6 +31,8 @@ BodyIndex BodyStorage::allocate(BodyKind new_kind) {
         orientation.resize(n);
         v.resize(n);
         w.resize(n);
+        p_BS.resize(n);
+        R_BS.resize(n);
         mass.resize(n);
         inertia_B.resize(n);
         mass_inv.resize(n);
@@ -54,7 +56,8 @@ BodyIndex BodyStorage::allocate(BodyKind new_kind) {
     kind[i] = new_kind;
     position[i] = v[i] = w[i] = linear_step[i] = Vec3::Zero();
     force[i] = torque[i] = constant_force[i] = constant_torque[i] = Vec3::Zero();
-    orientation[i] = Quat::Identity();
+    orientation[i] = R_BS[i] = Quat::Identity();
+    p_BS[i] = Vec3::Zero();
     inertiaInv_B[i] = inertia_B[i] = Vec3::Zero();
     inertiaInv_W[i] = Mat3::Zero();
     mass[i] = mass_inv[i] = r_max[i] = motion[i] = 0;

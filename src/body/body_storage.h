@@ -57,6 +57,8 @@ class BodyStorage {
     std::vector<Quat> orientation;    ///< B to W
     std::vector<Vec3> v;              ///< [m/s, W]
     std::vector<Vec3> w;              ///< [rad/s, W]
+    std::vector<Vec3> p_BS;           ///< origin of the shape's frame S, which World::pose() is about [m, B]
+    std::vector<Quat> R_BS;           ///< S to B
     std::vector<double> mass;         ///< [kg], of the description also for fixed bodies
     std::vector<Vec3> inertia_B;      ///< principal moments [kg·m², B]
     std::vector<double> mass_inv;     ///< [1/kg]; 0 = fixed
@@ -70,6 +72,16 @@ class BodyStorage {
     std::vector<WakeReason> woken;                      ///< why it woke in this step
     std::vector<double> motion;          ///< rwa: recency-weighted average of the squared motion [m²/s²] (3.2.4)
     std::vector<std::int32_t> supports;  ///< contacts in the direction of gravity in the last step; −1 = unknown
+
+    /// The pose of the shape's frame S in B, and in W.
+    Pose shapeInBody(BodyIndex i) const { return {p_BS[i], R_BS[i]}; }
+    Pose shapePose(BodyIndex i) const { return Pose{position[i], orientation[i]}.toOuter(shapeInBody(i)); }
+    /// Sets position and orientation of B from those of S. @param pose of S in W, a unit quaternion
+    void setShapePose(BodyIndex i, const Pose& pose) {
+        const Pose body = pose.toOuter(shapeInBody(i).inverse());
+        position[i] = body.position;
+        orientation[i] = body.orientation;
+    }
 
     std::size_t slots() const { return kind.size(); }
     std::size_t count() const { return count_; }

@@ -14,8 +14,8 @@ namespace {
 using EntryOf = const ShapeEntry& (*)();
 
 /// In the order of the alternatives of Shape.
-constexpr std::array<EntryOf, std::variant_size_v<Shape>> entries = {sphereEntry, boxEntry, capsuleEntry,
-                                                                     halfSpaceEntry, cylinderEntry};
+constexpr std::array<EntryOf, std::variant_size_v<Shape>> entries = {
+    sphereEntry, boxEntry, capsuleEntry, halfSpaceEntry, cylinderEntry, hullEntry, compoundEntry};
 
 const ShapeEntry& entryOf(const Shape& shape) {
     return entries[shape.index()]();

@@ -14,6 +14,7 @@ struct Bounds {
     Vec3 lower = Vec3::Constant(-std::numeric_limits<double>::infinity());  ///< [m, W]
     Vec3 upper = Vec3::Constant(std::numeric_limits<double>::infinity());   ///< [m, W]
 
+    Bounds grown(double by) const { return {lower.array() - by, upper.array() + by}; }
     bool overlaps(const Bounds& other) const {
         return (lower.array() <= other.upper.array()).all() && (other.lower.array() <= upper.array()).all();
     }
@@ -21,11 +22,13 @@ struct Bounds {
 
 /// Volume and inertia of a solid of density 1.
 struct UnitMassProperties {
-    double volume;        ///< [m³]; infinite for a half-space
-    Vec3 inertia_volume;  ///< principal moments about the centre for density 1 [m⁵, B]
+    double volume;                 ///< [m³]; infinite for a half-space
+    Vec3 inertia_volume;           ///< principal moments about the centre for density 1 [m⁵, B]
+    Vec3 centre = Vec3::Zero();    ///< of mass [m, frame of the shape]
+    Quat axes = Quat::Identity();  ///< B, the principal axes, to the frame of the shape
 };
 
-/// "sphere", "box", "capsule", "plane", "cylinder": the name in scene files.
+/// "sphere", "box", "capsule", "plane", "cylinder", "hull", "compound": the name in scene files.
 std::string_view shapeName(const Shape& shape);
 /// @throws InputError if a dimension is not finite or not positive; the text names it
 void validateShape(const Shape& shape);
@@ -33,7 +36,7 @@ void validateShape(const Shape& shape);
 bool isInfinite(const Shape& shape);
 /// @pre validateShape(shape)
 UnitMassProperties unitMassProperties(const Shape& shape);
-/// Largest distance of a surface point from the origin of B [m]: r_max of thesis (3.2.2); infinite for a half-space.
+/// Largest distance of a surface point from the centre of mass [m]: r_max of thesis (3.2.2); infinite for a half-space.
 double largestRadius(const Shape& shape);
 /// Bounds of the posed shape, as tight as an axis-aligned box can be. @param pose of B in W
 Bounds boundsOf(const Shape& shape, const Pose& pose);

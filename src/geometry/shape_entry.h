@@ -47,6 +47,8 @@ const ShapeEntry& boxEntry();
 const ShapeEntry& capsuleEntry();
 const ShapeEntry& halfSpaceEntry();
 const ShapeEntry& cylinderEntry();
+const ShapeEntry& hullEntry();
+const ShapeEntry& compoundEntry();
 
 /// Smallest and largest length of a shape [m]: between them no volume, inertia or inverse leaves the range of double,
 /// and tiny_length stays far below any shape.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/hull_data.h"
+
 namespace cairn {
 
 namespace {
@@ -51,9 +53,31 @@ Convex::Convex(const Cylinder& cylinder, const Pose& pose, const Vec3& origin)
       reach_(std::hypot(half_.x(), half_.z())),
       smallest_(half_.minCoeff()) {}
 
+Convex::Convex(const ConvexHull& hull, const Pose& pose, const Vec3& origin)
+    : kind_(Kind::hull),
+      axes_(pose.orientation.toRotationMatrix()),
+      hull_(&hull.data()),
+      hull_origin_(pose.position - origin),
+      reach_(hull.data().radius),
+      smallest_(hull.data().smallest) {
+    centre_ = hull_origin_ + axes_ * hull_->mass.centre;
+}
+
 Vec3 Convex::support(const Vec3& direction) const {
     if (kind_ == Kind::point) return centre_;
     const Vec3 d = axes_.transpose() * direction;
+    if (kind_ == Kind::hull) {
+        const std::vector<Vec3>& corners = hull_->corners;
+        std::size_t best = 0;
+        double farthest = corners[0].dot(d);
+        for (std::size_t i = 1; i < corners.size(); ++i) {
+            const double height = corners[i].dot(d);
+            if (!(height > farthest)) continue;
+            farthest = height;
+            best = i;
+        }
+        return hull_origin_ + axes_ * corners[best];
+    }
     Vec3 farthest(std::copysign(half_.x(), d.x()), std::copysign(half_.y(), d.y()), std::copysign(half_.z(), d.z()));
     if (kind_ == Kind::cylinder) {
         const double across = std::hypot(d.x(), d.y());
@@ -74,6 +98,8 @@ void Convex::findFeature(const Vec3& direction, Feature& feature) const {
             return findBoxFace(direction, feature);
         case Kind::line:
             return findLine(direction, feature);
+        case Kind::hull:
+            return findHullFace(direction, feature);
         case Kind::cylinder:
             return findCylinderFeature(direction, feature);
     }
@@ -93,6 +119,19 @@ void Convex::findBoxFace(const Vec3& direction, Feature& feature) const {
     feature.corners.add(middle + u + v);
     feature.corners.add(middle - u + v);
     feature.face = {normal, normal.dot(middle)};
+}
+
+void Convex::findHullFace(const Vec3& direction, Feature& feature) const {
+    const Vec3 d = axes_.transpose() * direction;
+    const auto best = std::max_element(hull_->faces.begin(), hull_->faces.end(),
+                                       [&](const auto& f, const auto& g) { return f.normal.dot(d) < g.normal.dot(d); });
+    const auto loop = hull_->loop(*best);
+    const std::size_t count = std::min(loop.size(), most_face_corners);
+    for (std::size_t i = 0; i < count; ++i) {
+        feature.corners.add(hull_origin_ + axes_ * hull_->corners[loop[i * loop.size() / count]]);
+    }
+    const Vec3 normal = axes_ * best->normal;
+    feature.face = {normal, normal.dot(hull_origin_) + best->offset};
 }
 
 void Convex::findLine(const Vec3& direction, Feature& feature) const {

@@ -27,6 +27,7 @@ class Convex {
     Convex(const Box& box, const Pose& pose, const Vec3& origin);
     Convex(const Capsule& capsule, const Pose& pose, const Vec3& origin);
     Convex(const Cylinder& cylinder, const Pose& pose, const Vec3& origin);
+    Convex(const ConvexHull& hull, const Pose& pose, const Vec3& origin);
 
     /// The point of the core farthest in a direction of any length. @return [m]
     Vec3 support(const Vec3& direction) const;
@@ -44,9 +45,10 @@ class Convex {
     double smallest() const { return smallest_; }  ///< smallest half extent [m]
 
   private:
-    enum class Kind : std::uint8_t { point, box, line, cylinder };
+    enum class Kind : std::uint8_t { point, box, line, cylinder, hull };
 
     void findBoxFace(const Vec3& direction, Feature& feature) const;
+    void findHullFace(const Vec3& direction, Feature& feature) const;
     void findLine(const Vec3& direction, Feature& feature) const;
     void findCylinderFeature(const Vec3& direction, Feature& feature) const;
     void addCap(const Vec3& direction, double end, Feature& feature) const;
@@ -54,11 +56,16 @@ class Convex {
     Kind kind_;
     Mat3 axes_ = Mat3::Identity();  ///< shape's frame to W
     Vec3 centre_;
-    Vec3 half_ = Vec3::Zero();  ///< half extents; of a cylinder radius, radius and half length
+    const HullData* hull_ = nullptr;
+    Vec3 hull_origin_ = Vec3::Zero();  ///< of the frame of a hull's corners
+    Vec3 half_ = Vec3::Zero();         ///< half extents; of a cylinder radius, radius and half length
     double rounding_ = 0;
     double reach_ = 0;
     double smallest_ = 0;
 };
+
+/// Of the corners of a larger face so many stand for it, evenly spread.
+inline constexpr std::size_t most_face_corners = 16;
 
 /// Corners that stand for the rim of a disc.
 inline constexpr int rim_corners = 8;

@@ -46,12 +46,25 @@ Vec3 dimensions(const Cylinder& cylinder) {
     return {cylinder.radius, cylinder.length, 0};
 }
 
+template <class S>
+int compareSizes(const S& a, const S& b) {
+    return compare(dimensions(a), dimensions(b));
+}
+int compareSizes(const ConvexHull& a, const ConvexHull& b) {
+    const auto p = a.corners();
+    const auto q = b.corners();
+    if (p.size() != q.size()) return p.size() < q.size() ? -1 : 1;
+    int order = 0;
+    for (std::size_t i = 0; i < p.size() && order == 0; ++i) order = compare(p[i], q[i]);
+    return order;
+}
+
 /// Two shapes of one kind are handed to their tester in an order that depends on them alone, so that swapping them
 /// cannot change a single bit.
 template <class S, TypedTester<S, S> tester>
 void canonical(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double margin, Manifold& out) {
     int order = compare(pose_a.position, pose_b.position);
-    if (order == 0) order = compare(dimensions(*std::get_if<S>(&a)), dimensions(*std::get_if<S>(&b)));
+    if (order == 0) order = compareSizes(*std::get_if<S>(&a), *std::get_if<S>(&b));
     if (order == 0) order = compare(pose_a.orientation.coeffs(), pose_b.orientation.coeffs());
     if (order > 0) {
         swapped<S, S, tester>(a, pose_a, b, pose_b, margin, out);
@@ -84,7 +97,9 @@ class TesterTable {
     Tester at(const Shape& a, const Shape& b) const { return testers_[a.index()][b.index()]; }
 
   private:
-    static constexpr std::size_t kinds = std::variant_size_v<Shape>;
+    /// Compounds, the last kind, meet others by their parts.
+    static constexpr std::size_t kinds = std::variant_size_v<Shape> - 1;
+    static_assert(std::is_same_v<std::variant_alternative_t<kinds, Shape>, Compound>);
 
     template <class S, std::size_t kind = 0>
     static constexpr std::size_t kindOf() {
@@ -122,6 +137,12 @@ constexpr TesterTable makeTable() {
     table.add<Cylinder, Capsule, convexPair<Cylinder, Capsule>>();
     table.add<Cylinder, HalfSpace, cylinderHalfSpace>();
     table.addSame<Cylinder, convexPair<Cylinder, Cylinder>>();
+    table.add<ConvexHull, Sphere, convexPair<ConvexHull, Sphere>>();
+    table.add<ConvexHull, Box, convexPair<ConvexHull, Box>>();
+    table.add<ConvexHull, Capsule, convexPair<ConvexHull, Capsule>>();
+    table.add<ConvexHull, HalfSpace, hullHalfSpace>();
+    table.add<ConvexHull, Cylinder, convexPair<ConvexHull, Cylinder>>();
+    table.addSame<ConvexHull, convexPair<ConvexHull, ConvexHull>>();
     return table;
 }
 

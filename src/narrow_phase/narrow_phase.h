@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "cairn/shape.h"
+#include "geometry/geometry.h"
 
 namespace cairn {
 
@@ -36,7 +37,33 @@ struct Manifold {
 /// @param manifold its size is 0 where the shapes are farther apart than the margin
 /// Swapping A and B gives the same points with the opposite normal. Any pose gives finite numbers.
 /// Two half-spaces never touch (both are fixed).
+/// @pre neither is a compound, whose parts meet others one by one (forEachManifold)
 void collide(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b, const Pose& pose_b, double margin,
              Manifold& manifold);
+
+/// As collide(), for any two shapes: finds the contacts of all parts of compounds.
+/// @param manifold for use in between @param use is called with each manifold that is not empty
+template <class Use>
+void forEachManifold(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b, const Pose& pose_b, double margin,
+                     Manifold& manifold, const Use& use) {
+    if (std::holds_alternative<Compound>(shape_a)) {
+        const Bounds other = boundsOf(shape_b, pose_b);
+        for (const CompoundPart& part : std::get_if<Compound>(&shape_a)->parts) {
+            const Pose pose = pose_a.toOuter(part.pose);
+            if (!boundsOf(part.shape, pose).grown(margin).overlaps(other)) continue;
+            forEachManifold(part.shape, pose, shape_b, pose_b, margin, manifold, use);
+        }
+    } else if (std::holds_alternative<Compound>(shape_b)) {
+        const Bounds other = boundsOf(shape_a, pose_a).grown(margin);
+        for (const CompoundPart& part : std::get_if<Compound>(&shape_b)->parts) {
+            const Pose pose = pose_b.toOuter(part.pose);
+            if (!boundsOf(part.shape, pose).overlaps(other)) continue;
+            forEachManifold(shape_a, pose_a, part.shape, pose, margin, manifold, use);
+        }
+    } else {
+        collide(shape_a, pose_a, shape_b, pose_b, margin, manifold);
+        if (manifold.size > 0) use(manifold);
+    }
+}
 
 }  // namespace cairn

@@ -29,5 +29,7 @@ void sphereCylinder(const Sphere& a, const Pose& pose_a, const Cylinder& b, cons
                     Manifold& manifold);
 void cylinderHalfSpace(const Cylinder& a, const Pose& pose_a, const HalfSpace& b, const Pose& pose_b, double margin,
                        Manifold& manifold);
+void hullHalfSpace(const ConvexHull& a, const Pose& pose_a, const HalfSpace& b, const Pose& pose_b, double margin,
+                   Manifold& manifold);
 
 }  // namespace cairn

@@ -4,6 +4,8 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "geometry/hull_data.h"
+
 namespace cairn {
 
 namespace {
@@ -98,6 +100,32 @@ Surface planeSurface(const HalfSpace& plane, const PlaneExtent& extent) {
     return surface;
 }
 
+Surface hullSurface(const ConvexHull& hull) {
+    const HullData& data = hull.data();
+    Surface surface;
+    surface.points = data.corners;
+    for (const HullFace& face : data.faces) {
+        for (const std::uint32_t corner : data.loop(face)) {
+            surface.corners.push_back(static_cast<std::int32_t>(corner));
+        }
+        surface.ends.push_back(static_cast<std::int32_t>(surface.corners.size()));
+    }
+    return surface;
+}
+
+Surface compoundSurface(const Compound& compound, const PlaneExtent& extent) {
+    Surface surface;
+    for (const CompoundPart& part : compound.parts) {
+        const Surface own = makeSurface(part.shape, extent);
+        const auto first_point = static_cast<std::int32_t>(surface.points.size());
+        const auto first_corner = static_cast<std::int32_t>(surface.corners.size());
+        for (const Vec3& point : own.points) surface.points.push_back(part.pose.toOuter(point));
+        for (const std::int32_t corner : own.corners) surface.corners.push_back(first_point + corner);
+        for (const std::int32_t end : own.ends) surface.ends.push_back(first_corner + end);
+    }
+    return surface;
+}
+
 }  // namespace
 
 Surface makeSurface(const Shape& shape, const PlaneExtent& extent) {
@@ -107,6 +135,8 @@ Surface makeSurface(const Shape& shape, const PlaneExtent& extent) {
         Surface operator()(const Box& b) const { return boxSurface(b); }
         Surface operator()(const Capsule& c) const { return roundSurface(c.radius, c.length / 2); }
         Surface operator()(const Cylinder& c) const { return cylinderSurface(c); }
+        Surface operator()(const ConvexHull& h) const { return hullSurface(h); }
+        Surface operator()(const Compound& c) const { return compoundSurface(c, extent); }
         Surface operator()(const HalfSpace& h) const { return planeSurface(h, extent); }
     };
     return std::visit(Visitor{extent}, shape);

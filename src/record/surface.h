@@ -10,14 +10,14 @@ namespace cairn {
 
 /// Polygons with outward normals (counter-clockwise seen from outside).
 struct Surface {
-    std::vector<Vec3> points;           ///< [m, B]
+    std::vector<Vec3> points;           ///< [m, frame of the shape]
     std::vector<std::int32_t> corners;  ///< indices of points, polygon after polygon
     std::vector<std::int32_t> ends;     ///< where each polygon ends in corners
 };
 
 /// What a half-space is drawn as: a square of its plane about the point of the plane that is nearest to a centre.
 struct PlaneExtent {
-    Vec3 centre = Vec3::Zero();  ///< [m, B]
+    Vec3 centre = Vec3::Zero();  ///< [m, frame of the shape]
     double half_edge = 1;        ///< [m], > 0
 };
 

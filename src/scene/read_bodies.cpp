@@ -3,15 +3,12 @@
 #include <cmath>
 #include <set>
 
+#include "geometry/body_mass.h"
 #include "geometry/geometry.h"
 #include "scene/scene_reading.h"
 
 namespace cairn {
 namespace {
-
-/// Range of a quaternion's length before it is normalised; outside it the direction drowns in rounding.
-constexpr double smallest_quaternion = 1e-6;
-constexpr double largest_quaternion = 1e6;
 
 std::string knownMaterials(const SceneReading& reading) {
     if (reading.scene.materials.empty()) return "'materials' lists none";
@@ -42,66 +39,36 @@ PairProperties readPair(const JsonNode& node, PairProperties inherited) {
     return pair;
 }
 
-constexpr std::string_view shape_types = "sphere, box, capsule, cylinder or plane";
-
-Shape readShape(const JsonNode& node) {
-    if (!node.value().is_object()) node.refuse("an object with the key type and the dimensions");
-    const JsonNode type_node = node.required("type", shape_types);
-    const std::string type = type_node.text();
-    const auto length = [&node](std::string_view key) { return node.required(key, "a number above 0 [m]").positive(); };
-    if (type == "sphere") {
-        node.expectKeys({"type", "radius"});
-        return Sphere{length("radius")};
-    }
-    if (type == "box") {
-        node.expectKeys({"type", "size"});
-        const JsonNode size = node.required("size", "three edge lengths [m]");
-        const Vec3 edges = size.vector();
-        if (!(edges.array() > 0).all()) size.refuse("three numbers above 0: the full edge lengths [m]");
-        return Box{edges};
-    }
-    if (type == "capsule") {
-        node.expectKeys({"type", "radius", "length"});
-        return Capsule{length("radius"), length("length")};
-    }
-    if (type == "cylinder") {
-        node.expectKeys({"type", "radius", "length"});
-        return Cylinder{length("radius"), length("length")};
-    }
-    if (type == "plane") {
-        node.expectKeys({"type", "normal", "offset"});
-        const JsonNode normal = node.required("normal", "an array of three numbers");
-        const HalfSpace plane{normal.vector(), node.required("offset", "a number [m]").number()};
-        const double length_squared = plane.normal.squaredNorm();
-        if (!(length_squared > 1e-12 && length_squared < 1e12)) normal.refuse("a direction of length 1e-6 to 1e6");
-        return plane;
-    }
-    type_node.refuse(shape_types);
-}
-
-Quat readOrientation(const JsonNode& node) {
-    if (!node.value().is_array() || node.size() != 4) node.refuse("four numbers w, x, y, z");
-    const Quat q(node.element(0).number(), node.element(1).number(), node.element(2).number(),
-                 node.element(3).number());
-    const double length = q.norm();
-    if (!(length >= smallest_quaternion && length <= largest_quaternion)) {
-        node.refuse("a quaternion w, x, y, z of length 1e-6 to 1e6, so that it can be normalised");
-    }
-    return q;
-}
-
 /// A body must have a mass and an inertia that a double can hold.
 void checkMass(const JsonNode& node, const SceneBody& body, double density) {
-    const UnitMassProperties unit = unitMassProperties(body.shape);
-    const double mass = body.mass.value_or(density * unit.volume);
-    const Vec3 inertia = unit.inertia_volume * (mass / unit.volume);
+    BodyMass found{};
+    try {
+        found = bodyMass(body.shape, density, {body.mass, body.centre_of_mass, body.inertia});
+    } catch (const InputError& error) {
+        node.fail(fmt::format("is refused: {}", error.what()));
+    }
     const auto usable = [](double x) { return std::isnormal(x) && std::isnormal(1 / x); };
-    if (!usable(mass) || !usable(inertia.minCoeff()) || !usable(inertia.maxCoeff())) {
+    if (!usable(found.mass) || !usable(found.inertia.minCoeff()) || !usable(found.inertia.maxCoeff())) {
         node.fail(
             fmt::format("has a mass of {} kg and an inertia of {} to {} kg·m²; shape, density and mass must give "
                         "numbers that are neither 0 nor infinite",
-                        mass, inertia.minCoeff(), inertia.maxCoeff()));
+                        found.mass, found.inertia.minCoeff(), found.inertia.maxCoeff()));
     }
+}
+
+/// Three moments, or these and the products xy, xz and yz.
+Mat3 readInertia(const JsonNode& node) {
+    if (!node.value().is_array() || (node.size() != 3 && node.size() != 6)) {
+        node.refuse("three moments xx, yy, zz, or these and the products xy, xz, yz [kg·m²]");
+    }
+    const auto at = [&](std::size_t i) { return node.element(i).number(); };
+    Mat3 inertia = Vec3(at(0), at(1), at(2)).asDiagonal();
+    if (node.size() == 6) {
+        inertia(0, 1) = inertia(1, 0) = at(3);
+        inertia(0, 2) = inertia(2, 0) = at(4);
+        inertia(1, 2) = inertia(2, 1) = at(5);
+    }
+    return inertia;
 }
 
 /// Members that contradict each other.
@@ -110,6 +77,9 @@ void checkBody(const JsonNode& node, const SceneBody& body, const SceneReading& 
     if (std::holds_alternative<HalfSpace>(body.shape)) {
         if (!body.fixed) node.fail("is a plane that is not fixed; a plane needs \"fixed\": true");
         if (body.mass) node.fail("is a plane with a mass; a plane is fixed and has none, remove mass");
+        if (body.centre_of_mass || body.inertia) {
+            node.fail("is a plane with a centre of mass or an inertia; a plane has none, remove them");
+        }
     }
     if (body.fixed && moves) node.fail("is fixed and has a velocity; a fixed body never moves, remove one of them");
     if (body.fixed && body.asleep) node.fail("is fixed and asleep; only a body that can move sleeps, remove asleep");
@@ -120,8 +90,8 @@ void checkBody(const JsonNode& node, const SceneBody& body, const SceneReading& 
 }
 
 SceneBody readBody(const JsonNode& node, const SceneReading& reading) {
-    node.expectKeys({"shape", "material", "name", "mass", "position", "orientation", "linear_velocity",
-                     "angular_velocity", "fixed", "asleep"});
+    node.expectKeys({"shape", "material", "name", "mass", "centre_of_mass", "inertia", "position", "orientation",
+                     "linear_velocity", "angular_velocity", "fixed", "asleep"});
     SceneBody body;
     body.shape = readShape(node.required("shape", "an object"));
     const JsonNode material = node.required("material", "the name of a material");
@@ -131,6 +101,8 @@ SceneBody readBody(const JsonNode& node, const SceneReading& reading) {
     }
     if (const auto value = node.find("name")) body.name = value->text();
     if (const auto value = node.find("mass")) body.mass = value->positive();
+    if (const auto value = node.find("centre_of_mass")) body.centre_of_mass = value->vector();
+    if (const auto value = node.find("inertia")) body.inertia = readInertia(*value);
     if (const auto value = node.find("position")) body.position = value->vector();
     if (const auto value = node.find("orientation")) body.orientation = readOrientation(*value);
     if (const auto value = node.find("linear_velocity")) body.linear_velocity = value->vector();

@@ -23,4 +23,8 @@ void readBodies(const JsonNode& node, SceneReading& reading);
 void readEvents(const JsonNode& node, SceneReading& reading);
 void readSprings(const JsonNode& node, SceneReading& reading);
 
+/// @throws InputError
+Shape readShape(const JsonNode& node);
+Quat readOrientation(const JsonNode& node);
+
 }  // namespace cairn

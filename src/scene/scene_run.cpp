@@ -85,6 +85,8 @@ BodyDescription describe(const SceneBody& body, const MaterialIds& materials) {
     description.shape = body.shape;
     description.material = findMaterial(materials, body.material);
     description.mass = body.mass;
+    description.centre_of_mass = body.centre_of_mass;
+    description.inertia = body.inertia;
     description.pose = {body.position, body.orientation};
     description.linear_velocity = body.linear_velocity;
     description.angular_velocity = body.angular_velocity;

@@ -58,20 +58,61 @@ std::string shapeText(const HalfSpace& s) {
     return fmt::format(R"("plane","normal":{},"offset":{})", vector(s.normal), number(s.offset));
 }
 
+std::string orientationText(const Quat& q) {
+    if (same(q.w(), 1) && isOmitted(q.vec())) return "";
+    return fmt::format(R"(,"orientation":[{},{},{},{}])", number(q.w()), number(q.x()), number(q.y()), number(q.z()));
+}
+
+std::string shapeText(const ConvexHull& s) {
+    std::string out = R"("hull","points":[)";
+    for (const Vec3& point : s.points()) {
+        if (out.back() != '[') out += ',';
+        out += vector(point);
+    }
+    return out + "]";
+}
+
+std::string shapeText(const Compound& s);
+
+std::string objectText(const Shape& shape) {
+    return fmt::format(R"({{"type":{}}})", std::visit([](const auto& s) { return shapeText(s); }, shape));
+}
+
+std::string shapeText(const Compound& s) {
+    std::string out = R"("compound","parts":[)";
+    for (const CompoundPart& part : s.parts) {
+        if (out.back() != '[') out += ',';
+        out += fmt::format(R"({{"shape":{})", objectText(part.shape));
+        if (!isOmitted(part.pose.position)) out += fmt::format(R"(,"position":{})", vector(part.pose.position));
+        out += orientationText(part.pose.orientation);
+        if (part.mass) out += fmt::format(R"(,"mass":{})", number(*part.mass));
+        if (part.density) out += fmt::format(R"(,"density":{})", number(*part.density));
+        out += '}';
+    }
+    return out + "]";
+}
+
+/// Three moments, and the three products if there are any.
+std::string inertiaText(const Mat3& inertia) {
+    std::string out = fmt::format("[{},{},{}", number(inertia(0, 0)), number(inertia(1, 1)), number(inertia(2, 2)));
+    const Vec3 products(inertia(0, 1), inertia(0, 2), inertia(1, 2));
+    if (!products.isZero(0)) {
+        out += fmt::format(",{},{},{}", number(products.x()), number(products.y()), number(products.z()));
+    }
+    return out + "]";
+}
+
 std::string bodyText(const SceneBody& body) {
-    const std::string shape = std::visit([](const auto& s) { return shapeText(s); }, body.shape);
-    std::string out = fmt::format(R"({{"shape":{{"type":{}}},"material":{})", shape, text(body.material));
+    std::string out = fmt::format(R"({{"shape":{},"material":{})", objectText(body.shape), text(body.material));
     const auto addVector = [&out](std::string_view key, const Vec3& value) {
         if (!isOmitted(value)) out += fmt::format(R"(,"{}":{})", key, vector(value));
     };
     if (!body.name.empty()) out += fmt::format(R"(,"name":{})", text(body.name));
     if (body.mass) out += fmt::format(R"(,"mass":{})", number(*body.mass));
+    if (body.centre_of_mass) out += fmt::format(R"(,"centre_of_mass":{})", vector(*body.centre_of_mass));
+    if (body.inertia) out += fmt::format(R"(,"inertia":{})", inertiaText(*body.inertia));
     addVector("position", body.position);
-    const Quat& q = body.orientation;
-    if (!same(q.w(), 1) || !isOmitted(q.vec())) {
-        out +=
-            fmt::format(R"(,"orientation":[{},{},{},{}])", number(q.w()), number(q.x()), number(q.y()), number(q.z()));
-    }
+    out += orientationText(body.orientation);
     addVector("linear_velocity", body.linear_velocity);
     addVector("angular_velocity", body.angular_velocity);
     if (body.fixed) out += R"(,"fixed":true)";

@@ -66,6 +66,21 @@ void worldFields(Stream& stream, World& world) {
     field(stream, world.time_at_start);
 }
 
+/// Since version 2; before it every shape's frame was that of its body.
+template <class Bodies>
+void shapeFrames(ByteWriter& out, const Bodies& bodies, std::size_t slots) {
+    slotArray(out, bodies.p_BS, slots);
+    slotArray(out, bodies.R_BS, slots);
+}
+template <class Bodies>
+void shapeFrames(ByteReader& in, Bodies& bodies, std::size_t slots) {
+    bodies.p_BS.assign(slots, Vec3::Zero());
+    bodies.R_BS.assign(slots, Quat::Identity());
+    if (in.version() < 2) return;
+    slotArray(in, bodies.p_BS, slots);
+    slotArray(in, bodies.R_BS, slots);
+}
+
 /// Left out: shape and name, which are no plain numbers, and linear_step, which every step computes anew.
 template <class Stream, class Bodies>
 void bodyArrays(Stream& stream, Bodies& bodies, std::size_t slots) {
@@ -90,6 +105,7 @@ void bodyArrays(Stream& stream, Bodies& bodies, std::size_t slots) {
     slotArray(stream, bodies.woken, slots);
     slotArray(stream, bodies.motion, slots);
     slotArray(stream, bodies.supports, slots);
+    shapeFrames(stream, bodies, slots);
 }
 
 template <class Stream, class AnySpring>

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "world/saved_fields.h"
+#include "world/saved_shapes.h"
 
 namespace cairn {
 
@@ -97,68 +98,15 @@ void loadMaterials(ByteReader& in, MaterialTable& materials) {
     }
 }
 
-/// A shape as a kind and four numbers.
-using ShapeNumbers = std::array<double, 4>;
-
-ShapeNumbers numbersOf(const Shape& shape) {
-    struct Visitor {
-        ShapeNumbers operator()(const Sphere& s) const { return {s.radius}; }
-        ShapeNumbers operator()(const Box& b) const { return {b.size.x(), b.size.y(), b.size.z()}; }
-        ShapeNumbers operator()(const Capsule& c) const { return {c.radius, c.length}; }
-        ShapeNumbers operator()(const HalfSpace& h) const {
-            return {h.normal.x(), h.normal.y(), h.normal.z(), h.offset};
-        }
-        ShapeNumbers operator()(const Cylinder& c) const { return {c.radius, c.length}; }
-    };
-    return std::visit(Visitor{}, shape);
-}
-
-Shape shapeFrom(std::uint8_t kind, const double* n, const ByteReader& in) {
-    switch (kind) {
-        case 0:
-            return Sphere{n[0]};
-        case 1:
-            return Box{Vec3(n[0], n[1], n[2])};
-        case 2:
-            return Capsule{n[0], n[1]};
-        case 3:
-            return HalfSpace{Vec3(n[0], n[1], n[2]), n[3]};
-        case 4:
-            return Cylinder{n[0], n[1]};
-        default:
-            in.refuse("an unknown kind of shape");
-    }
-}
-
-void saveShapes(std::span<const Shape> shapes, ByteWriter& out) {
-    for (const Shape& shape : shapes) {
-        out.put(static_cast<std::uint8_t>(shape.index()));
-        for (const double number : numbersOf(shape)) out.put(number);
-    }
-}
-
-void loadShapes(ByteReader& in, const std::vector<BodyKind>& kind, std::vector<Shape>& shapes) {
-    shapes.resize(kind.size());
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-        const auto index = in.get<std::uint8_t>();
-        ShapeNumbers numbers{};
-        for (double& number : numbers) number = in.get<double>();
-        shapes[i] = shapeFrom(index, numbers.data(), in);
-        if (kind[i] == BodyKind::hole) continue;
-        try {
-            validateShape(shapes[i]);
-        } catch (const InputError& error) {
-            in.refuse(error.what());
-        }
-    }
-}
-
 /// Refuses what no world can be. Velocities may be anything, since the next step tells such a fault.
 void checkBody(const ByteReader& in, const BodyStorage& b, BodyIndex i, std::size_t materials) {
     if (b.material[i] >= materials) in.refuse(fmt::format("body {} of an unknown material", i));
     if (!b.position[i].allFinite()) in.refuse(fmt::format("body {} at no place", i));
     if (!(std::abs(b.orientation[i].coeffs().squaredNorm() - 1) < 1e-6)) {
         in.refuse(fmt::format("body {} with an orientation that is no unit quaternion", i));
+    }
+    if (!b.p_BS[i].allFinite() || !(std::abs(b.R_BS[i].coeffs().squaredNorm() - 1) < 1e-6)) {
+        in.refuse(fmt::format("body {} whose shape has no pose", i));
     }
     if (b.kind[i] != BodyKind::dynamic) return;
     if (isInfinite(b.shape[i])) in.refuse(fmt::format("body {} that is infinite and moves", i));
@@ -171,7 +119,7 @@ void checkBody(const ByteReader& in, const BodyStorage& b, BodyIndex i, std::siz
 void saveBodies(const BodyStorage& b, ByteWriter& out) {
     out.put(std::uint64_t{b.slots()});
     bodyArrays(out, b, b.slots());
-    saveShapes(b.shape, out);
+    for (const Shape& shape : b.shape) saveShape(shape, out);
     for (const std::string& name : b.name) out.putText(name);
 }
 
@@ -183,7 +131,8 @@ void loadBodies(ByteReader& in, std::size_t materials, BodyStorage& b) {
         std::ranges::any_of(b.asleep, [](std::uint8_t asleep) { return asleep > 1; })) {
         in.refuse("an unknown state of a body");
     }
-    loadShapes(in, b.kind, b.shape);
+    b.shape.resize(slots);
+    for (Shape& shape : b.shape) shape = loadShape(in);
     b.name.resize(slots);
     for (std::string& name : b.name) name = in.getText();
     b.linear_step.assign(slots, Vec3::Zero());

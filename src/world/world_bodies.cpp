@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cairn/world.h"
+#include "geometry/body_mass.h"
 #include "sleeping/sleeping.h"
 #include "world/quarantine.h"
 #include "world/world_state.h"
@@ -51,12 +52,19 @@ void validateDescription(const BodyDescription& d, const MaterialTable& material
     if (d.asleep && moves) throw InputError("a sleeping body has no velocity; leave its velocities zero");
 }
 
-/// Mass and inertia from density or the given mass. @throws InputError if they under- or overflow
+/// Mass, inertia and where the shape's frame is, from density or as given. @throws InputError
 void setMass(BodyStorage& bodies, BodyIndex i, const BodyDescription& d, double density) {
-    if (isInfinite(d.shape)) return;
-    const UnitMassProperties unit = unitMassProperties(d.shape);
-    const double mass = d.mass ? *d.mass : density * unit.volume;
-    const Vec3 inertia = unit.inertia_volume * (mass / unit.volume);
+    if (isInfinite(d.shape)) {
+        if (d.centre_of_mass || d.inertia) {
+            throw InputError(
+                fmt::format("a {} has no centre of mass and no inertia; leave them out", shapeName(d.shape)));
+        }
+        bodies.r_max[i] = largestRadius(d.shape);
+        return;
+    }
+    const BodyMass found = bodyMass(d.shape, density, {d.mass, d.centre_of_mass, d.inertia});
+    const double mass = found.mass;
+    const Vec3& inertia = found.inertia;
     if (!(std::isnormal(mass) && std::isnormal(inertia.minCoeff()) && std::isfinite(inertia.maxCoeff()))) {
         throw InputError(
             fmt::format("mass {} kg with inertia ({}, {}, {}) kg·m² cannot be represented; change the "
@@ -65,6 +73,20 @@ void setMass(BodyStorage& bodies, BodyIndex i, const BodyDescription& d, double 
     }
     bodies.mass[i] = mass;
     bodies.inertia_B[i] = inertia;
+    const Pose shape = found.body_in_shape.inverse();
+    bodies.p_BS[i] = shape.position;
+    bodies.R_BS[i] = shape.orientation;
+    const Vec3 moved = found.body_in_shape.position - unitMassProperties(bodies.shape[i]).centre;
+    bodies.r_max[i] = largestRadius(bodies.shape[i]) + moved.norm();
+}
+
+/// The shape as the world keeps it: parts of compounds with unit quaternions.
+Shape normalised(const Shape& shape) {
+    Shape result = shape;
+    if (auto* compound = std::get_if<Compound>(&result)) {
+        for (CompoundPart& part : compound->parts) part.pose.orientation.normalize();
+    }
+    return result;
 }
 
 /// Body that may be moved by the user. @throws StaleIdError, InputError for a fixed body
@@ -83,20 +105,18 @@ BodyId World::addBody(const BodyDescription& d) {
     const Quat orientation = requireRotation(d.pose.orientation);
     BodyStorage& b = w.bodies;
     const BodyIndex i = b.allocate(d.fixed ? BodyKind::fixed : BodyKind::dynamic);
+    b.shape[i] = normalised(d.shape);
     try {
         setMass(b, i, d, w.materials.all()[static_cast<std::size_t>(d.material)].density);
     } catch (...) {
         b.release(i);
         throw;
     }
-    b.shape[i] = d.shape;
     b.material[i] = static_cast<std::uint32_t>(d.material);
     b.name[i] = d.name;
-    b.position[i] = d.pose.position;
-    b.orientation[i] = orientation;
+    b.setShapePose(i, {d.pose.position, orientation});
     b.v[i] = d.linear_velocity;
     b.w[i] = d.angular_velocity;
-    b.r_max[i] = largestRadius(d.shape);
     b.asleep[i] = d.asleep && !d.fixed ? 1 : 0;
     const double threshold = w.settings.sleep.sleep_threshold;
     b.motion[i] = b.asleep[i] != 0 ? threshold * threshold : initialMotion(w.settings.sleep);
@@ -157,7 +177,15 @@ MaterialId World::material(BodyId id) const {
 
 Pose World::pose(BodyId id) const {
     const BodyIndex i = state_->bodies.indexOf(id);
-    return {state_->bodies.position[i], state_->bodies.orientation[i]};
+    return state_->bodies.shapePose(i);
+}
+
+Vec3 World::centreOfMass(BodyId id) const {
+    return state_->bodies.position[state_->bodies.indexOf(id)];
+}
+
+Quat World::principalAxes(BodyId id) const {
+    return state_->bodies.orientation[state_->bodies.indexOf(id)];
 }
 
 Vec3 World::linearVelocity(BodyId id) const {
@@ -193,8 +221,7 @@ void World::setPose(BodyId id, const Pose& pose) {
     const BodyIndex i = b.indexOf(id);
     requireWithin(pose.position, distance_limit, "position", "m");
     const Quat orientation = requireRotation(pose.orientation);
-    b.position[i] = pose.position;
-    b.orientation[i] = orientation;
+    b.setShapePose(i, {pose.position, orientation});
     b.updateMassProperties(i);
     b.state().wake(i, WakeReason::changed);
 }

@@ -31,6 +31,11 @@ Spring& springOf(std::vector<Spring>& springs, SpringId id) {
                                    id.index, id.generation));
 }
 
+/// @param anchor [m, frame of the body's pose, or W] @return [m, B or W]
+Vec3 anchorInBody(const BodyStorage& bodies, BodyIndex i, const Vec3& anchor) {
+    return i == Spring::world_point ? anchor : bodies.shapeInBody(i).toOuter(anchor);
+}
+
 void wakeEnds(BodyStorage& bodies, const Spring& spring) {
     const BodyState state = bodies.state();
     state.wake(spring.a, WakeReason::changed);
@@ -61,8 +66,8 @@ SpringId World::addSpring(const SpringDescription& d) {
               .generation = spring.generation,
               .a = a,
               .b = b,
-              .anchor_a = d.anchor_a,
-              .anchor_b = d.anchor_b,
+              .anchor_a = anchorInBody(w.bodies, a, d.anchor_a),
+              .anchor_b = anchorInBody(w.bodies, b, d.anchor_b),
               .stiffness = d.stiffness,
               .damping = d.damping,
               .rest_length = d.rest_length};
@@ -80,7 +85,7 @@ void World::removeSpring(SpringId id) {
 void World::setSpringAnchor(SpringId id, const Vec3& anchor_b) {
     Spring& spring = springOf(state_->springs, id);
     requireFinite(anchor_b, "anchor_b");
-    spring.anchor_b = anchor_b;
+    spring.anchor_b = anchorInBody(state_->bodies, spring.b, anchor_b);
     wakeEnds(state_->bodies, spring);
 }
 

@@ -87,6 +87,10 @@ World worldOfEverything() {
     const BodyId box = add(Box{Vec3(0.2, 0.3, 0.1)}, oak, Vec3(1, 0, 0.05));
     add(Capsule{0.05, 0.2}, oak, Vec3(1, 0, 0.15));
     add(Cylinder{0.1, 0.1}, steel, Vec3(2, 0, 0.051));
+    add(ConvexHull({{0, 0, 0}, {0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}}), oak, Vec3(3, 0, 0));
+    add(Compound{{{Box{Vec3(0.2, 0.2, 0.1)}, {}, {}, {}},
+                  {Sphere{0.05}, {Vec3(0, 0, 0.1), Quat::Identity()}, 0.3, {}}}},
+        oak, Vec3(4, 0, 0.05));
     const BodyId hole = add(Sphere{0.1}, oak, Vec3(5, 0, 1));
     const BodyId broken = add(Sphere{0.1}, oak, Vec3(6, 0, 1));
     world.addSpring({.a = ball, .b = box, .stiffness = 5, .damping = 0.1, .rest_length = 1});

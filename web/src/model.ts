@@ -5,7 +5,16 @@ export type ShapeInfo =
   | { type: 'box'; size: [number, number, number] }
   | { type: 'capsule'; radius: number; length: number }
   | { type: 'cylinder'; radius: number; length: number }
+  | { type: 'hull'; points: [number, number, number][] }
+  | { type: 'compound'; parts: PartInfo[] }
   | { type: 'plane'; normal: [number, number, number]; offset: number };
+
+/** A shape of a compound with its pose; the orientation is w, x, y, z. */
+export interface PartInfo {
+  shape: ShapeInfo;
+  position: [number, number, number];
+  orientation: [number, number, number, number];
+}
 
 /** A body as the page draws it; `slot` is its place in the arrays of a frame. */
 export interface BodyInfo {

@@ -3,7 +3,8 @@ import {
   BoxGeometry, BufferGeometry, CapsuleGeometry, CylinderGeometry, Group, InstancedBufferAttribute, InstancedMesh, Matrix4, Quaternion,
   SphereGeometry, Vector3, type Material,
 } from 'three';
-import { asleep, fixed, present, type BodyInfo, type ColourMode, type Frame, type Roster } from '../model';
+import { asleep, fixed, present, type BodyInfo, type ColourMode, type Frame, type Roster, type ShapeInfo } from '../model';
+import { compoundGeometry, hullGeometry } from './solids';
 import {
   asleepColour, awakeColour, categorical, fixedColour, noneColour, qualitative, sequential, toLinear, type Rgb,
 } from './palette';
@@ -179,27 +180,40 @@ export function niceAbove(value: number): number {
   return 10 * power;
 }
 
-function geometryKey(body: BodyInfo): string {
-  return body.shape.type === 'capsule' ? `capsule ${body.shape.radius} ${body.shape.length}` : body.shape.type;
+/** Bodies of one key are instances of one geometry. Boxes, balls and cylinders are scaled, the others drawn as they are. */
+function geometryKey({ shape }: BodyInfo): string {
+  return shape.type === 'capsule' || shape.type === 'hull' || shape.type === 'compound' ? JSON.stringify(shape) : shape.type;
 }
 
-function halfExtents(body: BodyInfo): [number, number, number] {
-  if (body.shape.type === 'cylinder') return [body.shape.radius, body.shape.radius, body.shape.length / 2];
-  if (body.shape.type === 'box') return body.shape.size.map((edge) => edge / 2) as [number, number, number];
-  if (body.shape.type === 'sphere') return [body.shape.radius, body.shape.radius, body.shape.radius];
+function halfExtents({ shape }: BodyInfo): [number, number, number] {
+  if (shape.type === 'cylinder') return [shape.radius, shape.radius, shape.length / 2];
+  if (shape.type === 'box') return shape.size.map((edge) => edge / 2) as [number, number, number];
+  if (shape.type === 'sphere') return [shape.radius, shape.radius, shape.radius];
   return [1, 1, 1];
 }
 
 /** Fewer triangles where there are many bodies. */
-function makeGeometry(body: BodyInfo, count: number): BufferGeometry {
-  if (body.shape.type === 'box') return new BoxGeometry(2, 2, 2);
+function makeGeometry({ shape }: BodyInfo, count: number): BufferGeometry {
   const [around, along] = count > 600 ? [14, 9] : count > 100 ? [24, 16] : [40, 28];
-  if (body.shape.type === 'capsule') {
-    const capsule = new CapsuleGeometry(body.shape.radius, body.shape.length, Math.ceil(along / 2), around);
-    return capsule.rotateX(Math.PI / 2);
+  const actual = (part: ShapeInfo): BufferGeometry => {
+    switch (part.type) {
+      case 'box': return new BoxGeometry(...part.size);
+      case 'sphere': return new SphereGeometry(part.radius, around, along).rotateX(Math.PI / 2);
+      case 'capsule':
+        return new CapsuleGeometry(part.radius, part.length, Math.ceil(along / 2), around).rotateX(Math.PI / 2);
+      case 'cylinder':
+        return new CylinderGeometry(part.radius, part.radius, part.length, 2 * around).rotateX(Math.PI / 2);
+      case 'hull': return hullGeometry(part.points);
+      case 'compound': return compoundGeometry(part.parts, actual);
+      case 'plane': return new BufferGeometry();
+    }
+  };
+  switch (shape.type) {
+    case 'box': return actual({ type: 'box', size: [2, 2, 2] });
+    case 'sphere': return actual({ type: 'sphere', radius: 1 });
+    case 'cylinder': return actual({ type: 'cylinder', radius: 1, length: 2 });
+    default: return actual(shape);
   }
-  if (body.shape.type === 'cylinder') return new CylinderGeometry(1, 1, 2, 2 * around).rotateX(Math.PI / 2);
-  return new SphereGeometry(1, around, along).rotateX(Math.PI / 2);
 }
 
 const position = new Vector3();

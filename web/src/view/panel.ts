@@ -4,6 +4,7 @@ import { fixed, present, type Frame, type Roster, type ViewOptions } from '../mo
 import { Bodies } from './bodies';
 import { Ground } from './ground';
 import { Overlays } from './overlays';
+import { sizeOf } from './solids';
 
 export type Theme = 'light' | 'dark';
 
@@ -113,7 +114,7 @@ export function extentOf(roster: Roster, frame: Frame): Extent {
     const points: { p: Vector3; size: number; far: number }[] = [];
     for (const { shape, slot } of roster.bodies.values()) {
       if (shape.type === 'plane' || slot >= frame.slots || (frame.flags[slot] & (present | fixed)) !== wanted) continue;
-      const size = shape.type === 'box' ? Math.max(...shape.size) : 2 * shape.radius + ('length' in shape ? shape.length : 0);
+      const size = sizeOf(shape);
       points.push({ p: new Vector3().fromArray(frame.position, 3 * slot), size, far: 0 });
     }
     if (points.length === 0) continue;

@@ -1,0 +1,129 @@
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "geometry/compound_mass.h"
+#include "geometry/principal_axes.h"
+#include "geometry/shape_entry.h"
+
+namespace cairn {
+
+namespace {
+
+/// @param name of the number in the message
+void requirePositive(const std::optional<double>& value, std::size_t index, std::string_view name) {
+    if (!value || (*value > 0 && std::isfinite(*value))) return;
+    throw InputError(
+        fmt::format("part {} of a compound has the {} {}; it must be finite and above 0", index, name, *value));
+}
+
+void validatePart(const CompoundPart& part, std::size_t index) {
+    if (isInfinite(part.shape) || std::holds_alternative<Compound>(part.shape)) {
+        throw InputError(
+            fmt::format("part {} of a compound is a {}; it must be a sphere, box, capsule, cylinder or hull", index,
+                        shapeName(part.shape)));
+    }
+    validateShape(part.shape);
+    const Vec3& p = part.pose.position;
+    if (!(p.allFinite() && p.cwiseAbs().maxCoeff() <= largest_dimension)) {
+        throw InputError(fmt::format("part {} of a compound is at ({}, {}, {}) m; it must be finite and within ±{} m",
+                                     index, p.x(), p.y(), p.z(), largest_dimension));
+    }
+    const double length = part.pose.orientation.coeffs().stableNorm();
+    if (!(std::isfinite(length) && length > 1e-6)) {
+        throw InputError(fmt::format(
+            "the orientation of part {} of a compound has the length {}; a quaternion must be finite and not "
+            "zero",
+            index, length));
+    }
+    requirePositive(part.mass, index, "mass");
+    requirePositive(part.density, index, "density");
+    if (part.mass && part.density) {
+        throw InputError(fmt::format("part {} of a compound has a mass and a density; give one of them", index));
+    }
+}
+
+void validate(const Compound& compound) {
+    if (compound.parts.empty()) {
+        throw InputError("a compound without parts has no mass; give it at least one part");
+    }
+    for (std::size_t i = 0; i < compound.parts.size(); ++i) validatePart(compound.parts[i], i);
+}
+
+UnitMassProperties massProperties(const Compound& compound) {
+    std::vector<PartMass> parts;
+    for (const CompoundPart& part : compound.parts) {
+        const UnitMassProperties unit = unitMassProperties(part.shape);
+        parts.push_back({unit.volume, part, unit});
+    }
+    return combine(parts);
+}
+
+double radius(const Compound& compound) {
+    const Vec3 centre = massProperties(compound).centre;
+    double farthest = 0;
+    for (const CompoundPart& part : compound.parts) {
+        const Vec3 middle = part.pose.toOuter(unitMassProperties(part.shape).centre);
+        farthest = std::max(farthest, (middle - centre).norm() + largestRadius(part.shape));
+    }
+    return farthest;
+}
+
+Bounds bounds(const Compound& compound, const Pose& pose) {
+    Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity());
+    Vec3 upper = -lower;
+    for (const CompoundPart& part : compound.parts) {
+        const Bounds of_part = boundsOf(part.shape, pose.toOuter(part.pose));
+        lower = lower.cwiseMin(of_part.lower);
+        upper = upper.cwiseMax(of_part.upper);
+    }
+    return {lower, upper};
+}
+
+Vec3 farthest(const Compound& compound, const Vec3& direction) {
+    const Vec3 unit = direction.stableNormalized();
+    Vec3 best = Vec3::Zero();
+    double reach = -std::numeric_limits<double>::infinity();
+    for (const CompoundPart& part : compound.parts) {
+        const Vec3 point = part.pose.toOuter(support(part.shape, part.pose.orientation.conjugate() * unit));
+        if (!(point.dot(unit) > reach)) continue;
+        reach = point.dot(unit);
+        best = point;
+    }
+    return best;
+}
+
+constexpr ShapeEntry entry = finiteShapeEntry<Compound, validate, massProperties, radius, bounds, farthest>("compound");
+
+/// Centre of mass of a part in the frame of the compound. @param p whose quaternion may have any length
+Vec3 centreOf(const PartMass& p) {
+    return p.part.pose.position + p.part.pose.orientation.normalized() * p.unit.centre;
+}
+
+}  // namespace
+
+UnitMassProperties combine(std::span<const PartMass> parts) {
+    double mass = 0;
+    Vec3 moment = Vec3::Zero();
+    for (const PartMass& p : parts) {
+        mass += p.mass;
+        moment += p.mass * centreOf(p);
+    }
+    const Vec3 centre = moment / mass;
+    Mat3 inertia = Mat3::Zero();
+    for (const PartMass& p : parts) {
+        const Mat3 axes = (p.part.pose.orientation.normalized() * p.unit.axes).toRotationMatrix();
+        const Vec3 own = p.mass / p.unit.volume * p.unit.inertia_volume;
+        const Vec3 from = centreOf(p) - centre;
+        inertia += axes * own.asDiagonal() * axes.transpose() +
+                   p.mass * (from.squaredNorm() * Mat3::Identity() - from * from.transpose());  // Steiner
+    }
+    const PrincipalInertia principal = principalInertia(inertia);
+    return {mass, principal.moments, centre, principal.axes};
+}
+
+const ShapeEntry& compoundEntry() {
+    return entry;
+}
+
+}  // namespace cairn

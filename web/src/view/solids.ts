@@ -1,0 +1,70 @@
+/** Shapes that have no dimensions of their own: hulls of points, and compounds of other shapes. */
+import { Matrix4, Quaternion, Ray, Vector3, type BufferGeometry } from 'three';
+import { ConvexGeometry } from 'three/addons/geometries/ConvexGeometry.js';
+import { ConvexHull } from 'three/addons/math/ConvexHull.js';
+import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
+import type { PartInfo, ShapeInfo } from '../model';
+
+const vectors = (points: number[][]): Vector3[] => points.map(([x, y, z]) => new Vector3(x, y, z));
+
+export function hullGeometry(points: number[][]): BufferGeometry {
+  return new ConvexGeometry(vectors(points));
+}
+
+/** @param make the geometry of a part in its own frame, in metres */
+export function compoundGeometry(parts: PartInfo[], make: (shape: ShapeInfo) => BufferGeometry): BufferGeometry {
+  const one = new Vector3(1, 1, 1);
+  const geometries = parts.map((part) => {
+    const made = make(part.shape);
+    const geometry = made.index ? made.toNonIndexed() : made;
+    geometry.deleteAttribute('uv');
+    return geometry.applyMatrix4(new Matrix4().compose(new Vector3(...part.position), turnOf(part), one));
+  });
+  return mergeGeometries(geometries);
+}
+
+/** The orientation of a part. */
+function turnOf(part: PartInfo): Quaternion {
+  const [w, x, y, z] = part.orientation;
+  return new Quaternion(x, y, z, w).normalize();
+}
+
+/** Largest length of a shape [m], roughly. */
+export function sizeOf(shape: ShapeInfo): number {
+  switch (shape.type) {
+    case 'box': return Math.max(...shape.size);
+    case 'sphere': return 2 * shape.radius;
+    case 'capsule':
+    case 'cylinder': return 2 * shape.radius + shape.length;
+    case 'hull': return 2 * Math.max(...distances(shape.points));
+    case 'compound': return Math.max(...shape.parts.map((part) => 2 * Math.hypot(...part.position) + sizeOf(part.shape)));
+    case 'plane': return Infinity;
+  }
+}
+
+/** Of points from their middle. */
+function distances(points: number[][]): number[] {
+  const middle = [0, 1, 2].map((k) => points.reduce((sum, point) => sum + point[k], 0) / points.length);
+  return points.map((point) => Math.hypot(...point.map((value, k) => value - middle[k])));
+}
+
+const hulls = new WeakMap<number[][], ConvexHull>();
+
+/** Distance along a ray in the frame of the points, or infinity. */
+export function hullDistance(o: Vector3, d: Vector3, points: number[][]): number {
+  let hull = hulls.get(points);
+  if (!hull) hulls.set(points, (hull = new ConvexHull().setFromPoints(vectors(points))));
+  const hit = hull.intersectRay(new Ray(o, d), new Vector3());
+  return hit ? hit.distanceTo(o) : Infinity;
+}
+
+/** Distance along a ray in the frame of the compound, or infinity. */
+export function compoundDistance(
+  o: Vector3, d: Vector3, parts: PartInfo[], distance: (shape: ShapeInfo, o: Vector3, d: Vector3) => number,
+): number {
+  return Math.min(...parts.map((part) => {
+    const back = turnOf(part).conjugate();
+    const from = o.clone().sub(new Vector3(...part.position)).applyQuaternion(back);
+    return distance(part.shape, from, d.clone().applyQuaternion(back));
+  }));
+}
