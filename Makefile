@@ -2,6 +2,8 @@
 #   make run       build the release and run the main scene; where there is a display, show it in the browser
 #   make test      build the release and run all tests
 #   make sanitize  run the tests under the address, undefined-behaviour and thread sanitizers
+#   make fuzz SECONDS=60   fuzz the readers, the narrow phase and the world, each target for so long
+#   make soak SIMULATED=3600 WALL=3600   pour a mixed pile for so many seconds: nothing may leak, slow down or creep
 #   make thesis    repeat every benchmark of the thesis: report/index.html
 #   make results   measure the scenes and rewrite the table in README.md
 #   make format | tidy | install PREFIX=DIR | clean
@@ -9,12 +11,15 @@
 SCENE ?= stacks5
 JOBS ?= 2
 PREFIX ?= /usr/local
+SECONDS ?= 60
+SIMULATED ?= 3600
+WALL ?= 3600
 SOURCES = $$(find include src apps bench tests examples -name '*.h' -o -name '*.cpp')
 
 # A compiler cache is used where there is one.
 export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
 
-.PHONY: run test sanitize thesis results format tidy install clean
+.PHONY: run test sanitize fuzz soak thesis results format tidy install clean
 
 run:
 	@tools/install_packages build
@@ -33,6 +38,14 @@ sanitize:
 	@tools/install_packages build test develop
 	@tools/sanitize asan-ubsan
 	@tools/sanitize tsan
+
+fuzz:
+	@tools/install_packages build develop
+	@tools/fuzz $(SECONDS)
+
+soak:
+	@tools/install_packages build
+	@tools/soak $(SIMULATED) $(WALL)
 
 thesis:
 	@tools/install_packages build

@@ -10,6 +10,13 @@ namespace cairn {
 inline constexpr double speed_limit = 1e9;
 /// Bodies farther than this from the origin are treated like non-finite ones [m].
 inline constexpr double distance_limit = 1e12;
+/// Masses of bodies [kg]: energies and impulses within these limits stay far from overflow and underflow.
+inline constexpr double smallest_mass = 1e-30;
+inline constexpr double largest_mass = 1e30;
+
+inline bool isUsableMass(double mass) {
+    return mass >= smallest_mass && mass <= largest_mass;
+}
 
 /// Fixes every body whose state left the finite numbers or the limits, where it is, and notes the fault.
 void quarantine(WorldState& world);

@@ -13,10 +13,11 @@ namespace cairn {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// The smallest number above zero: the lower end of ranges that exclude zero.
 constexpr double above_zero = std::numeric_limits<double>::min();
 constexpr double most_steps_per_second = 1e6;
+/// Far above any use; a body falls beyond the limit of speeds at once [m/s²].
+constexpr double gravity_limit = 1e12;
 
 constexpr std::array<std::string_view, 2> broad_phase_names = {"hash_grids", "all_pairs"};
 constexpr std::array<std::string_view, 2> correction_names = {"propagated", "none"};
@@ -283,12 +284,11 @@ void validate(const Settings& settings, const Vec3& gravity) {
     for (const SettingField& field : fields()) {
         static_cast<void>(converted(field, field.get(settings)));
     }
-    if (!gravity.allFinite()) {
-        throw InputError(
-            fmt::format("gravity is ({}, {}, {}) m/s²; it must be finite", gravity.x(), gravity.y(), gravity.z()));
-    }
     const double magnitude = gravity.stableNorm();
-    if (!(magnitude < infinity)) throw InputError("gravity overflows; its magnitude must be a finite number");
+    if (!gravity.allFinite() || magnitude > gravity_limit) {
+        throw InputError(fmt::format("gravity is ({}, {}, {}) m/s²; its magnitude must be a number up to {} m/s²",
+                                     gravity.x(), gravity.y(), gravity.z(), gravity_limit));
+    }
     requireTogether(settings, magnitude);
 }
 

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "math/rotation.h"
+#include "world/quarantine.h"
 #include "world/saved_fields.h"
 #include "world/saved_shapes.h"
 
@@ -123,6 +125,26 @@ void saveBodies(const BodyStorage& b, ByteWriter& out) {
     for (const std::string& name : b.name) out.putText(name);
 }
 
+/// Refuses inverse masses that are not those of the masses: the response would give energy without end.
+void checkMassProperties(const ByteReader& in, const BodyStorage& b, BodyIndex i) {
+    const bool heavy = isUsableMass(b.mass[i]) && b.inertia_B[i].allFinite() && (b.inertia_B[i].array() > 0).all();
+    if (!isInfinite(b.shape[i]) && !heavy) in.refuse(fmt::format("body {} without a mass", i));
+    if (!isInfinite(b.shape[i]) && !(b.r_max[i] <= distance_limit)) in.refuse(fmt::format("body {} without end", i));
+    Vec3 inverse_B = Vec3::Zero();
+    Mat3 inverse_W = Mat3::Zero();
+    double inverse = 0;
+    if (b.kind[i] == BodyKind::dynamic) {
+        inverse = 1 / b.mass[i];
+        inverse_B = b.inertia_B[i].cwiseInverse();
+        inverse_W = toWorldInertia(inverse_B, b.orientation[i]);
+    }
+    // Another compiler may have rounded otherwise.
+    const bool fits = std::abs(b.mass_inv[i] - inverse) <= 1e-12 * inverse &&
+                      ((b.inertiaInv_B[i] - inverse_B).cwiseAbs().array() <= 1e-12 * inverse_B.array()).all() &&
+                      (b.inertiaInv_W[i] - inverse_W).cwiseAbs().maxCoeff() <= 1e-6 * inverse_B.maxCoeff();
+    if (!fits) in.refuse(fmt::format("body {} with an inverse mass that is not that of its mass", i));
+}
+
 void loadBodies(ByteReader& in, std::size_t materials, BodyStorage& b) {
     const auto slots = in.get<std::uint64_t>();
     bodyArrays(in, b, slots);
@@ -138,8 +160,14 @@ void loadBodies(ByteReader& in, std::size_t materials, BodyStorage& b) {
     b.linear_step.assign(slots, Vec3::Zero());
     b.adoptSlots();
     for (BodyIndex i = 0; i < slots; ++i) {
-        if (b.kind[i] != BodyKind::hole) checkBody(in, b, i, materials);
+        if (b.kind[i] == BodyKind::hole) continue;
+        checkBody(in, b, i, materials);
+        checkMassProperties(in, b, i);
     }
+}
+
+bool isFiniteAndNotNegative(double value) {
+    return value >= 0 && std::isfinite(value);
 }
 
 void loadSprings(ByteReader& in, const BodyStorage& bodies, std::vector<Spring>& springs) {
@@ -151,6 +179,10 @@ void loadSprings(ByteReader& in, const BodyStorage& bodies, std::vector<Spring>&
         if (!exists(spring.a) || (spring.b != Spring::world_point && !exists(spring.b))) {
             in.refuse("a spring of an unknown body");
         }
+        const bool sound = spring.anchor_a.allFinite() && spring.anchor_b.allFinite() &&
+                           isFiniteAndNotNegative(spring.stiffness) && isFiniteAndNotNegative(spring.damping) &&
+                           isFiniteAndNotNegative(spring.rest_length);
+        if (!sound) in.refuse("a spring that no world has");
     }
 }
 

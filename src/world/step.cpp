@@ -126,7 +126,7 @@ void stepWorld(WorldState& world) {
     ++world.steps;
     world.statistics = {};
     Statistics& statistics = world.statistics;
-    const bool checked = world.checks == Checks::on;
+    const bool checked = world.checks != Checks::off;
     timed(statistics, Stage::events, [&] {
         beginEvents(world);
         // What user code did between the steps may have overflowed.
@@ -146,7 +146,7 @@ void stepWorld(WorldState& world) {
     timed(statistics, Stage::velocities, [&] { velocityStage(world); });
     const double energy = checked ? kineticEnergyOf(world.bodies) : 0;
     timed(statistics, Stage::resolution, [&] { resolveStage(world); });
-    if (checked) checkEnergy(world, energy);
+    if (world.checks == Checks::on) checkEnergy(world, energy);
     timed(statistics, Stage::sleeping, [&] { sleepStage(world); });
     timed(statistics, Stage::output, [&] { outputStage(world); });
     if (checked) checkState(world);

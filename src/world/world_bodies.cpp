@@ -23,6 +23,14 @@ void requireWithin(const Vec3& value, double limit, std::string_view what, std::
 /// Limit of forces, torques and impulses: far above any use, far below overflow.
 constexpr double load_limit = 1e30;
 
+/// @throws InputError if the response could not reckon with it
+void requireUsableMass(double mass) {
+    if (isUsableMass(mass)) return;
+    throw InputError(
+        fmt::format("mass is {} kg; it must be within {} and {} kg: change the size, the density or the mass", mass,
+                    smallest_mass, largest_mass));
+}
+
 /// @throws InputError if it cannot be normalised
 Quat requireRotation(const Quat& q) {
     const double norm = q.coeffs().stableNorm();
@@ -108,6 +116,7 @@ BodyId World::addBody(const BodyDescription& d) {
     b.shape[i] = normalised(d.shape);
     try {
         setMass(b, i, d, w.materials.all()[static_cast<std::size_t>(d.material)].density);
+        if (!isInfinite(d.shape)) requireUsableMass(b.mass[i]);
     } catch (...) {
         b.release(i);
         throw;

@@ -116,6 +116,7 @@ TEST(Validation, DampingThatLetsBodiesSleepInTheAirIsRefused) {
     s.gravity_damping.damping = 0.95;
     EXPECT_THROW(validate(s, Vec3(0, 0, -10)), InputError);
     EXPECT_THROW(validate(s, Vec3(0, 0, std::nan(""))), InputError);
+    EXPECT_THROW(validate(s, Vec3(0, 0, 1e200)), InputError);
 }
 
 }  // namespace

@@ -1,0 +1,37 @@
+/// Any two shapes in any poses give finite contacts with a unit normal, and swapped the opposite ones.
+#include <cmath>
+
+#include "fuzz/bytes.h"
+#include "geometry/geometry.h"
+#include "narrow_phase/narrow_phase.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace cairn;
+    fuzz::Bytes in(data, size);
+    const Shape a = fuzz::shape(in);
+    const Shape b = fuzz::shape(in);
+    const Quat turn = fuzz::rotation(in);
+    const Pose pose_a{Vec3(in.within(1), in.within(1), in.within(1)), turn};
+    double reach = 0;
+    for (const Shape* shape : {&a, &b}) reach += isInfinite(*shape) ? 1 : largestRadius(*shape);
+    const Vec3 offset(in.within(reach), in.within(reach), in.within(reach));
+    const Pose pose_b{pose_a.position + (in.below(8) == 0 ? Vec3(0, 0, 0) : offset),
+                      in.below(2) == 0 ? turn : fuzz::rotation(in)};
+    const double margin = in.below(2) == 0 ? 1e-4 : std::abs(in.within(0.1));
+    Manifold manifold;
+    collide(a, pose_a, b, pose_b, margin, manifold);
+    fuzz::require(manifold.size <= Manifold::capacity);
+    Manifold swapped;
+    collide(b, pose_b, a, pose_a, margin, swapped);
+    fuzz::require((swapped.size == 0) == (manifold.size == 0));
+    if (manifold.size == 0) return 0;
+    fuzz::require(std::abs(manifold.normal.norm() - 1) < 1e-9);
+    // Where two centres coincide no direction is better than its opposite.
+    const bool concentric = pose_a.position == pose_b.position;
+    fuzz::require(concentric || (swapped.normal + manifold.normal).norm() < 1e-9);
+    for (std::size_t i = 0; i < manifold.size; ++i) {
+        fuzz::require(manifold.points[i].point.allFinite());
+        fuzz::require(manifold.points[i].distance <= margin && manifold.points[i].distance >= -3 * reach - 3);
+    }
+    return 0;
+}
