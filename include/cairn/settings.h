@@ -70,7 +70,8 @@ struct GravityDampingSettings {
 
 /// Motion of free bodies.
 struct IntegrationSettings {
-    bool gyroscopic = true;  ///< torque-free rotation keeps its angular momentum (Euler's equations)
+    bool gyroscopic = true;     ///< torque-free rotation keeps its angular momentum (Euler's equations)
+    bool exact_flight = false;  ///< smooth motion follows the mean of a step's velocities: free bodies, the parabola
 };
 
 /// Threads. @source thesis §4

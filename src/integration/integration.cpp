@@ -112,4 +112,49 @@ void advanceVelocities(BodyStorage& bodies, const Vec3& acceleration, const Grav
     });
 }
 
+namespace {
+
+/// A contact may change a smoothly moving body's velocity up to this multiple of what the forces do: in rolling and
+/// sliding it is at most about twice as much.
+constexpr double smooth_multiple = 3;
+
+double speedChange(const BodyStorage& bodies, const VelocitiesBefore& before, std::size_t i) {
+    return (bodies.v[i] - before.v[i]).norm() + (bodies.w[i] - before.w[i]).norm() * bodies.r_max[i];
+}
+
+}  // namespace
+
+void noteVelocities(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before) {
+    before.v.resize(bodies.slots());
+    before.w.resize(bodies.slots());
+    before.forced.resize(bodies.slots());
+    executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t i = begin; i < end; ++i) {
+            before.v[i] = bodies.v[i];
+            before.w[i] = bodies.w[i];
+        }
+    });
+}
+
+void noteForced(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before) {
+    executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t i = begin; i < end; ++i) before.forced[i] = speedChange(bodies, before, i);
+    });
+}
+
+void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, double time_step,
+                          const Executor& executor) {
+    executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (bodies.kind[i] != BodyKind::dynamic || bodies.asleep[i] != 0) continue;
+            if (!(speedChange(bodies, before, i) <= smooth_multiple * before.forced[i])) continue;
+            bodies.position[i] += (bodies.v[i] - before.v[i]) * (time_step / 2);
+            const Vec3 dw = bodies.w[i] - before.w[i];
+            if (dw.isZero(0)) continue;
+            rotateUniformly(bodies.orientation[i], dw / 2, time_step);
+            bodies.inertiaInv_W[i] = toWorldInertia(bodies.inertiaInv_B[i], bodies.orientation[i]);
+        }
+    });
+}
+
 }  // namespace cairn

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "body/body_storage.h"
 #include "cairn/settings.h"
@@ -22,6 +23,27 @@ void rotateUniformly(Quat& orientation, const Vec3& w, double time);
 /// @param time_step [s]
 void advancePositions(BodyStorage& bodies, const IntegrationSettings& settings, double time_step,
                       const Executor& executor);
+
+/// Velocities before the forces of a step acted, and how far those changed them. One entry per slot; the vectors keep
+/// their memory.
+struct VelocitiesBefore {
+    std::vector<Vec3> v;         ///< [m/s, W]
+    std::vector<Vec3> w;         ///< [rad/s, W]
+    std::vector<double> forced;  ///< by the forces, at most, of any point of the body [m/s]
+};
+
+/// Notes the velocities before advanceVelocities(). @param before out
+void noteVelocities(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before);
+/// Notes what the forces changed, between advanceVelocities() and the resolution. @param before in and out
+void noteForced(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before);
+
+/// Completes the step of all awake dynamic bodies that moved smoothly: advancePositions() moved them by the velocity at
+/// the beginning of the step, this adds what is missing to the mean of beginning and end. Under constant forces that is
+/// the exact parabola; bodies at rest, whose velocity does not change, stay where they are. Where an impact changed the
+/// velocity by more than forces could, the mean means nothing and the body is left alone.
+/// @pre the resolution is done @param time_step [s]
+void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, double time_step,
+                          const Executor& executor);
 
 /// Adds to the velocities of all awake dynamic bodies what the forces give in one step; slow bodies feel only a part of
 /// the global acceleration (Algorithm 12). Clears the one-step forces of all bodies.

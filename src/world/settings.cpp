@@ -133,6 +133,9 @@ const std::vector<SettingField>& fields() {
                                                           "bodies below this motion are damped"),
         plain<&S::integration, &I::gyroscopic>("gyroscopic", "integration", "", 0, 1,
                                                "torque-free rotation keeps its angular momentum"),
+        plain<&S::integration, &I::exact_flight>(
+            "exact_flight", "integration", "", 0, 1,
+            "smooth motion follows the mean of a step's velocities, so that free bodies keep to the parabola"),
         plain<&S::parallel, &P::threads>("threads", "parallel", "", 1, 1024,
                                          "threads of a step; results do not depend on it"),
         plain<&S::parallel, &P::large_batch>("large_batch", "parallel", "contacts", 1, 1e9,

@@ -77,10 +77,13 @@ void velocityStage(WorldState& world) {
         wakeUnsupported(world.bodies.state(), world.bodies.supports, data.supports, world.executor);
     }
     std::swap(world.bodies.supports, data.supports);
+    const bool exact = world.settings.integration.exact_flight;
+    if (exact) noteVelocities(world.bodies, world.executor, data.before);
     advanceVelocities(world.bodies, acceleration, world.settings.gravity_damping, world.settings.timeStep(),
                       world.executor);
     applySprings(world.springs, world.bodies, world.settings.timeStep());
     quarantine(world);
+    if (exact) noteForced(world.bodies, world.executor, data.before);
 }
 
 void resolveStage(WorldState& world) {
@@ -103,6 +106,9 @@ void resolveStage(WorldState& world) {
     });
     if (remembers) world.memory.store(world.bodies, data.contacts, world.executor);
     quarantine(world);
+    if (world.settings.integration.exact_flight) {
+        completeSmoothMotion(world.bodies, data.before, world.settings.timeStep(), world.executor);
+    }
 }
 
 void sleepStage(WorldState& world) {

@@ -13,6 +13,7 @@
 #include "cairn/world.h"
 #include "correction/correction.h"
 #include "geometry/geometry.h"
+#include "integration/integration.h"
 #include "integration/springs.h"
 #include "parallel/executor.h"
 #include "persistence/contact_memory.h"
@@ -31,6 +32,7 @@ struct StepData {
     BatchScratch batch_scratch;           ///< batches: kept memory
     std::vector<std::uint32_t> schedule;  ///< batches: order of work, large ones first
     std::size_t large_batches = 0;        ///< batches: how many of the schedule are large
+    VelocitiesBefore before;              ///< velocities: [slots], with exact_flight only
     std::vector<std::int32_t> supports;   ///< velocities: [slots] contacts in the direction of gravity
     std::vector<CorrectionCounts> correction_counts;  ///< correction: [threads]
     std::vector<ResolutionCounts> resolution_counts;  ///< resolution: [threads]
