@@ -13,10 +13,13 @@ namespace {
 
 /// What changes of a contact while its batch is swept; contact coordinates.
 struct SweptContact {
-    Vec3 impulse;       ///< accumulated, on A [N·s]; always in the friction cone after a sweep
-    Vec3 direction;     ///< last direction of the conjugate gradients [N·s]
-    Vec3 before;        ///< impulse at the beginning of the sweep [N·s]
-    double target = 0;  ///< normal velocity that the contact must at least have [m/s]
+    Vec3 impulse;                   ///< accumulated, on A [N·s]; always in the friction cone after a sweep
+    Vec3 direction;                 ///< last direction of the conjugate gradients [N·s]
+    double friction = 0;            ///< coefficient that holds at present: static, once it slides kinetic
+    Vec3 before;                    ///< impulse at the beginning of the sweep [N·s]
+    double target = 0;              ///< normal velocity that the contact must at least have [m/s]
+    Symmetric3 k;                   ///< K [1/kg]
+    double largest_tangential = 0;  ///< eigenvalue of K's tangential part [1/kg]
 };
 
 /// Velocities of a body, or a direction in their space.
@@ -25,22 +28,52 @@ struct Twist {
     Vec3 w;  ///< [rad/s, W]
 };
 
+/// Rounds of slidingSteps() in every visit of a sliding contact. The sweeps converge with any number; a few save
+/// sweeps.
+constexpr int sliding_rounds = 4;
+
+/// Largest eigenvalue of the tangential part of K [1/kg].
+double largestTangential(const Symmetric3& k) {
+    const double mean = (k.yy + k.zz) / 2;
+    const double half = (k.yy - k.zz) / 2;
+    return mean + std::sqrt(half * half + k.yz * k.yz);
+}
+
+/// The accumulated impulse of a contact that slides: in turns the normal part gives the target velocity and the
+/// tangential part is moved against the sliding velocity and put back onto the friction cone. What stays the same under
+/// this is Coulomb's law: friction exactly against the sliding. The direction of the impulse that would stop the
+/// sliding at once, which the law of a single impact takes, is another one wherever the normal and tangential
+/// directions are coupled, and lets a sliding box feel too little friction.
+/// @param velocity ϑA − ϑB less the target, with the present impulse [m/s, contact coordinates]
+Vec3 slidingSteps(const SweptContact& contact, const Vec3& velocity) {
+    const double step = 1 / contact.largest_tangential;
+    Vec3 j = contact.impulse;
+    Vec3 c = velocity;
+    for (int round = 0; round < sliding_rounds; ++round) {
+        const double normal = std::max(0.0, j[0] - c[0] / contact.k.xx);
+        c += contact.k * Vec3(normal - j[0], 0, 0);
+        Vec3 next(normal, j[1] - step * c[1], j[2] - step * c[2]);
+        const double tangential = std::sqrt(next[1] * next[1] + next[2] * next[2]);
+        const double limit = contact.friction * normal;
+        if (tangential > limit) {
+            next[1] *= limit / tangential;
+            next[2] *= limit / tangential;
+        }
+        c += contact.k * Vec3(0, next[1] - j[1], next[2] - j[2]);
+        j = next;
+    }
+    return j;
+}
+
 /// The accumulated impulse that gives the contact its target velocity and stops its sliding, within the friction cone.
 /// @param velocity ϑA − ϑB with the present impulse [m/s, contact coordinates]
 Vec3 projectedImpulse(const ContactFrame& frame, const SweptContact& contact, const Vec3& velocity) {
-    const Vec3& old = contact.impulse;
-    const Vec3 stick = old + frame.k_inv * Vec3(contact.target - velocity[0], -velocity[1], -velocity[2]);
+    const Vec3 excess(velocity[0] - contact.target, velocity[1], velocity[2]);
+    const Vec3 stick = contact.impulse - frame.k_inv * excess;
     const double tangential = stick[1] * stick[1] + stick[2] * stick[2];
-    const double cone = frame.static_friction * stick[0];
+    const double cone = contact.friction * stick[0];
     if (stick[0] > 0 && tangential <= cone * cone) return stick;
-    // Outside: the direction of sliding stays, the normal impulse follows from the first row of K as in (3.5.8), here
-    // for the accumulated impulse.
-    const double beta = tangential > 0 ? frame.kinetic_friction / std::sqrt(tangential) : 0;
-    const double wanted = contact.target - velocity[0] + frame.k_row.dot(old);
-    const double denominator = frame.k_row[0] + beta * (frame.k_row[1] * stick[1] + frame.k_row[2] * stick[2]);
-    const double normal = denominator > 0 ? wanted / denominator : wanted / frame.k_row[0];
-    if (!(normal > 0)) return Vec3::Zero();
-    return {normal, beta * normal * stick[1], beta * normal * stick[2]};
+    return slidingSteps(contact, excess);
 }
 
 /// Sweeps over the contacts, forth and back, with accumulated impulses that begin where the last step ended, and
@@ -56,18 +89,9 @@ class AcceleratedSweepsResolution final : public Resolution {
         local_.gather(batch, contacts, bodies);
         begin(batch, contacts, settings);
         ResolutionCounts counts;
-        double squared_gradient = 0;
-        for (std::int64_t sweep = 1;; ++sweep) {
-            noteBefore();
-            for (std::size_t i = 0; i < swept_.size(); ++i) resolveContact(i);
-            for (std::size_t i = swept_.size(); i-- > 0;) resolveContact(i);
-            counts.global_iterations += 2 * static_cast<std::int64_t>(swept_.size());
-            const Change change = changeOfSweep();
-            if (!(change.largest_speed > settings.resolution_threshold) || sweep >= settings.sweep_limit) break;
-            const bool descends = squared_gradient > 0 && change.squared <= squared_gradient;
-            accelerate(descends ? change.squared / squared_gradient : 0);
-            squared_gradient = change.squared;
-        }
+        counts.global_iterations = sweepUntilSteady(settings);
+        // Only what static friction cannot hold slides. Where both are the same this costs nothing.
+        if (releaseSliding(settings)) counts.global_iterations += sweepUntilSteady(settings);
         finish(batch, contacts, bodies);
         return counts;
     }
@@ -76,8 +100,42 @@ class AcceleratedSweepsResolution final : public Resolution {
     /// How much a sweep changed.
     struct Change {
         double squared = 0;        ///< of the impulses, weighted by K00: twice an energy [J]
-        double largest_speed = 0;  ///< largest change of a contact's normal velocity by its own impulse [m/s]
+        double largest_speed = 0;  ///< largest change of a contact's velocity by its own impulse [m/s]
     };
+
+    /// @return contacts visited
+    std::int64_t sweepUntilSteady(const ResolutionSettings& settings) {
+        std::int64_t visited = 0;
+        double squared_gradient = 0;
+        for (std::int64_t sweep = 1;; ++sweep) {
+            noteBefore();
+            for (std::size_t i = 0; i < swept_.size(); ++i) resolveContact(i);
+            for (std::size_t i = swept_.size(); i-- > 0;) resolveContact(i);
+            visited += 2 * static_cast<std::int64_t>(swept_.size());
+            const Change change = changeOfSweep();
+            if (!(change.largest_speed > settings.resolution_threshold) || sweep >= settings.sweep_limit) break;
+            const bool descends = squared_gradient > 0 && change.squared <= squared_gradient;
+            accelerate(descends ? change.squared / squared_gradient : 0);
+            squared_gradient = change.squared;
+        }
+        return visited;
+    }
+
+    /// Gives the contacts that slide their kinetic friction. @return whether any has another one now
+    bool releaseSliding(const ResolutionSettings& settings) {
+        // What is slower than this only has not converged yet.
+        const double sliding = 10 * settings.resolution_threshold;
+        bool released = false;
+        for (std::size_t i = 0; i < swept_.size(); ++i) {
+            const ContactFrame& frame = local_.contacts[i];
+            if (!(frame.kinetic_friction < frame.static_friction) || !(swept_[i].impulse[0] > 0)) continue;
+            const Vec3 velocity = local_.velocityOf(frame);
+            if (velocity[1] * velocity[1] + velocity[2] * velocity[2] <= sliding * sliding) continue;
+            swept_[i].friction = frame.kinetic_friction;
+            released = true;
+        }
+        return released;
+    }
 
     void begin(const BatchView& batch, std::span<const Contact> contacts, const ResolutionSettings& settings) {
         swept_.resize(local_.contacts.size());
@@ -87,6 +145,9 @@ class AcceleratedSweepsResolution final : public Resolution {
             const ContactFrame& frame = local_.contacts[i];
             const double closing = local_.velocityOf(frame)[0];
             SweptContact& s = swept_[i];
+            s.k = collisionMatrix(frame, local_.bodies[frame.a], local_.bodies[frame.b]);
+            s.friction = frame.static_friction;
+            s.largest_tangential = largestTangential(s.k);
             s.target = closing < -settings.restitution_threshold ? -frame.restitution * closing : 0;
             s.impulse = frame.basis.transpose() * contacts[batch.contacts[i]].last_impulse;
             if (!(s.impulse[0] > 0) || !isResolvable(frame)) s.impulse.setZero();
@@ -123,7 +184,7 @@ class AcceleratedSweepsResolution final : public Resolution {
             const Vec3 difference = swept_[i].impulse - swept_[i].before;
             const Vec3& k_row = local_.contacts[i].k_row;
             change.squared += k_row[0] * difference.squaredNorm();
-            change.largest_speed = std::max(change.largest_speed, std::abs(k_row.dot(difference)));
+            change.largest_speed = std::max(change.largest_speed, (swept_[i].k * difference).norm());
         }
         return change;
     }
