@@ -80,6 +80,11 @@ struct ParallelSettings {
     std::int64_t large_batch = 32;  ///< batches with at least so many contacts are handed out one by one (§4)
 };
 
+/// What a world refuses to grow beyond.
+struct LimitSettings {
+    std::int64_t body_limit = 10'000'000;  ///< most bodies at one time, 1 to 1e9; a body needs about 4 kB
+};
+
 /// All settings of a world.
 struct Settings {
     double steps_per_second = 240;  ///< time steps per simulated second, 30 to 1e6; the thesis asks for at least 180
@@ -90,6 +95,7 @@ struct Settings {
     GravityDampingSettings gravity_damping;
     IntegrationSettings integration;
     ParallelSettings parallel;
+    LimitSettings limits;
 
     /// The length of a time step [s].
     double timeStep() const { return 1 / steps_per_second; }

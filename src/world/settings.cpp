@@ -140,6 +140,8 @@ const std::vector<SettingField>& fields() {
                                          "threads of a step; results do not depend on it"),
         plain<&S::parallel, &P::large_batch>("large_batch", "parallel", "contacts", 1, 1e9,
                                              "batches with at least so many contacts are handed out one by one"),
+        plain<&S::limits, &LimitSettings::body_limit>("body_limit", "limits", "", 1, 1e9,
+                                                      "most bodies at one time; one more is refused"),
     };
     return all;
 }

@@ -112,6 +112,11 @@ BodyId World::addBody(const BodyDescription& d) {
     validateDescription(d, w.materials);
     const Quat orientation = requireRotation(d.pose.orientation);
     BodyStorage& b = w.bodies;
+    if (b.count() >= static_cast<std::size_t>(w.settings.limits.body_limit)) {
+        throw InputError(
+            fmt::format("a body too many: the setting body_limit allows {}; raise it or remove bodies first",
+                        w.settings.limits.body_limit));
+    }
     const BodyIndex i = b.allocate(d.fixed ? BodyKind::fixed : BodyKind::dynamic);
     b.shape[i] = normalised(d.shape);
     try {

@@ -57,6 +57,47 @@ TEST_F(CommandLine, jsonIsOneObjectWithAllKeys) {
     EXPECT_EQ(hash.find_first_not_of("0123456789abcdef"), std::string::npos) << hash;
 }
 
+/// Copies a recording with one number changed: where body 2 was in frame 10, which ends with time step 80.
+void forge(const std::filesystem::path& from, const std::filesystem::path& to) {
+    const RecordingReader reader(from);
+    const RecordingInfo& info = reader.info();
+    RecordingWriter writer(to, info.scene, settingsFor(info.scene), info.hashes_per_frame);
+    for (std::size_t i = 0; i < info.frames; ++i) {
+        Frame frame = reader.frame(i);
+        if (i == 10) frame.position[2].x() += 1e-9;
+        writer.append(frame);
+    }
+    writer.close();
+}
+
+TEST_F(CommandLine, checksChangeNothingOfASoundRun) {
+    const std::vector<std::string> arguments = {"run", "tower:3", "--duration", "0.5", "--json"};
+    std::vector<std::string> checked = arguments;
+    checked.emplace_back("--check");
+    const Finished without = cairn(arguments);
+    const Finished with = cairn(checked);
+    ASSERT_EQ(with.code, 0) << with.error;
+    EXPECT_EQ(json::parse(with.out)["state_hash"], json::parse(without.out)["state_hash"]);
+}
+
+TEST_F(CommandLine, aReplayIsProvedAndTheFirstDifferenceIsNamed) {
+    for (const bool hashes : {false, true}) {
+        std::vector<std::string> arguments = {"run", "tower:3", "--duration", "0.5", "--quiet", "--record", "r.h5"};
+        if (hashes) arguments.emplace_back("--hashes");
+        ASSERT_EQ(cairn(arguments).code, 0);
+        const Finished same = cairn({"replay", "r.h5", "--verify"});
+        EXPECT_EQ(same.code, 0) << same.error;
+        EXPECT_TRUE(same.out.starts_with(hashes ? "verified: 120 time steps" : "verified: 15 frames")) << same.out;
+
+        forge(file("r.h5"), file("forged.h5"));
+        const Finished other = cairn({"replay", "forged.h5", "--verify"});
+        EXPECT_EQ(other.code, 1);
+        EXPECT_EQ(other.out, "");
+        EXPECT_NE(other.error.find("the replay differs from time step 80 on, first body 2"), std::string::npos)
+            << other.error;
+    }
+}
+
 TEST_F(CommandLine, theReportIsThatOfTheLibrary) {
     Scene scene = builtInScene("tower:3");
     const Settings settings = settingsFor(scene, {Preset::accuracy, 480, {{"sleeping", "false"}}});

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "cairn/shape.h"
 
@@ -68,9 +70,21 @@ inline double length(Bytes& in) {
     return scales[in.below(scales.size())] * (0.1 + 0.9 * std::abs(in.within(1)));
 }
 
-/// A shape that is allowed.
+/// A hull of up to 11 points, often on a grid so that faces have many corners. @throws InputError if they are flat
+inline ConvexHull hull(Bytes& in) {
+    const double scale = length(in);
+    const bool grid = in.below(2) == 0;
+    std::vector<Vec3> points(4 + in.below(8));
+    for (Vec3& point : points) {
+        for (double& x : point) x = grid ? static_cast<double>(in.below(3)) - 1 : in.within(1);
+        point *= scale;
+    }
+    return ConvexHull(std::move(points));
+}
+
+/// A shape without parts. @throws InputError if it is not allowed
 inline Shape shape(Bytes& in) {
-    switch (in.below(5)) {
+    switch (in.below(6)) {
         case 0:
             return Sphere{length(in)};
         case 1: {
@@ -86,6 +100,8 @@ inline Shape shape(Bytes& in) {
             const double radius = length(in);
             return Cylinder{radius, length(in)};
         }
+        case 4:
+            return hull(in);
         default:
             return HalfSpace{Vec3(in.within(1), in.within(1), 1.5 + in.within(1)), in.within(2)};
     }
@@ -106,6 +122,17 @@ inline Quat rotation(Bytes& in) {
             return q.norm() > 1e-3 ? q.normalized() : Quat::Identity();
         }
     }
+}
+
+/// Any shape, also of parts. @throws InputError if it is not allowed
+inline Shape anyShape(Bytes& in) {
+    if (in.below(6) != 0) return shape(in);
+    Compound compound;
+    for (std::uint32_t left = 1 + in.below(3); left > 0; --left) {
+        const Shape part = shape(in);
+        compound.parts.push_back({part, {Vec3(in.within(1), in.within(1), in.within(1)), rotation(in)}, {}, {}});
+    }
+    return compound;
 }
 
 }  // namespace cairn::fuzz

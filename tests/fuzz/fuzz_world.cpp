@@ -31,7 +31,7 @@ void act(World& world, fuzz::Bytes& in, std::vector<BodyId>& ids, std::vector<Sp
         case 3: {
             if (world.bodyCount() >= most_bodies) return;
             BodyDescription d;
-            d.shape = fuzz::shape(in);
+            d.shape = fuzz::anyShape(in);
             d.material = static_cast<MaterialId>(in.below(3));
             d.pose = {in.vector(2), fuzz::rotation(in)};
             d.fixed = in.below(4) == 0 || std::holds_alternative<HalfSpace>(d.shape);

@@ -235,6 +235,24 @@ TEST(Limits, OneMaterialTooManyIsRefused) {
     EXPECT_EQ(world.materials().size(), 256U);
 }
 
+TEST(Limits, OneBodyTooManyIsRefusedUntilOneIsRemoved) {
+    Settings settings = Settings::preset(Preset::performance);
+    settings.limits.body_limit = 3;
+    Ground g(settings);
+    g.box(1, Vec3(0, 0, 0.5));
+    const BodyId second = g.box(1, Vec3(2, 0, 0.5));
+    try {
+        g.box(1, Vec3(4, 0, 0.5));
+        FAIL() << "the fourth body was taken";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("body_limit allows 3"), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(g.world.bodyCount(), 3U);
+    g.world.removeBody(second);
+    g.box(1, Vec3(4, 0, 0.5));
+    EXPECT_EQ(g.world.bodyCount(), 3U);
+}
+
 TEST(Limits, PlacesAndSpeedsBeyondThemAreRefusedWithTheLimit) {
     Ground g;
     const auto refusal = [](const auto& action) -> std::string {
