@@ -19,7 +19,7 @@ SOURCES = $$(find include src apps bench tests examples -name '*.h' -o -name '*.
 # A compiler cache is used where there is one.
 export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
 
-.PHONY: run test sanitize fuzz soak thesis results format tidy install clean
+.PHONY: run test sanitize fuzz soak thesis validate results format tidy install clean
 
 run:
 	@tools/install_packages build
@@ -52,6 +52,12 @@ thesis:
 	@cmake --preset release --log-level=WARNING
 	@cmake --build --preset release --target cairn_cli
 	build/release/cairn bench thesis --out report
+
+validate:
+	@tools/install_packages build
+	@cmake --preset release --log-level=WARNING
+	@cmake --build --preset release --target cairn_cli
+	build/release/cairn validate --out validation
 
 results:
 	@tools/install_packages build

@@ -1,4 +1,5 @@
-// Bundles the page into one HTML file: node build.mjs [--modules DIR] [--out FILE] [--bytes FILE]
+// Bundles a page into one HTML file: node build.mjs [--source DIR] [--modules DIR] [--out FILE] [--bytes FILE]
+//   --source   the folder of main.ts, style.css and page.html (default: src beside this file)
 //   --modules  where the dependencies are installed (default: node_modules beside this file)
 //   --out      the page (default: dist/index.html)
 //   --bytes    the page as a comma-separated list of numbers, for a C++ array
@@ -8,7 +9,12 @@ import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const options = { modules: join(here, 'node_modules'), out: join(here, 'dist', 'index.html'), bytes: '' };
+const options = {
+  source: join(here, 'src'),
+  modules: join(here, 'node_modules'),
+  out: join(here, 'dist', 'index.html'),
+  bytes: '',
+};
 for (let i = 2; i < process.argv.length; i += 2) {
   const name = process.argv[i].replace(/^--/, '');
   if (!(name in options) || process.argv[i + 1] === undefined) throw new Error(`unknown option ${process.argv[i]}`);
@@ -20,7 +26,7 @@ const { build } = createRequire(pathToFileURL(join(options.modules, '..', 'packa
 
 async function bundle(entry) {
   const result = await build({
-    entryPoints: [join(here, 'src', entry)],
+    entryPoints: [join(options.source, entry)],
     bundle: true,
     minify: true,
     format: 'iife',
@@ -42,7 +48,7 @@ function write(file, content) {
 const script = (await bundle('main.ts')).replaceAll('</script', '<\\/script');
 const style = (await bundle('style.css')).replaceAll('</style', '<\\/style');
 // Functions as replacements, because "$" in the bundle must stay as it is.
-const page = readFileSync(join(here, 'src', 'page.html'), 'utf8')
+const page = readFileSync(join(options.source, 'page.html'), 'utf8')
   .replace('/* style */', () => style)
   .replace('/* script */', () => script);
 write(options.out, page);

@@ -65,7 +65,7 @@ function draw(figure: Figure, width: number): SVGSVGElement | HTMLElement {
     marginTop: 26,
     marginBottom: 38,
     style: { background: 'transparent', fontSize: '12px', overflow: 'visible' },
-    x: { label: figure.x, nice: false, ticks: width < 420 ? 5 : 8 },
+    x: { label: figure.x, type: figure.x_scale ?? 'linear', nice: false, ticks: width < 420 ? 5 : 8 },
     y: log
       ? { label: figure.y, type: 'log', domain: [Math.min(...values), Math.max(...values)] }
       : { label: figure.y, grid: true, ticks: 5, tickFormat: tick },

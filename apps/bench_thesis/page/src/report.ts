@@ -23,6 +23,7 @@ export interface Figure {
   x: string;
   y: string;
   scale: 'linear' | 'log';
+  x_scale?: 'linear' | 'log';
   lines: Line[];
   references: { label: string; y: number }[];
 }

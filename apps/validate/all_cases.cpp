@@ -1,0 +1,19 @@
+#include <vector>
+
+#include "validate/cases/cases.h"
+
+namespace cairn::validation {
+
+std::span<const Case> allCases() {
+    static const std::vector<Case> cases = {
+        parabola,          tumbling_box,  dzhanibekov,   symmetric_top,
+        incline_threshold, incline_slide, incline_creep, static_over_kinetic,
+        slide_to_roll,     rolling_down,  bouncing,      two_body_impact,
+        oblique_impact,    cue_ball,      cradle,        tipping,
+        overhang,          towers,        walls,         mass_ratios,
+        dominoes_wave,     gas,           haff,
+    };
+    return cases;
+}
+
+}  // namespace cairn::validation

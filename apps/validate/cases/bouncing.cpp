@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cases.h"
+#include "validate/world_tools.h"
+
+namespace cairn::validation {
+
+namespace {
+
+constexpr double height = 1;    ///< [m]
+constexpr double radius = 0.1;  ///< [m]
+constexpr int bounces = 10;
+
+struct Bounces {
+    std::vector<double> heights;  ///< between the bounces [m]
+    double time = 0;              ///< until it rests [s]
+    Line path{"height", {}, {}};
+};
+
+Bounces bounce(double rate, double restitution, double duration, const Plan& plan) {
+    World world = makeWorld(accurateSettings(rate), Vec3(0, 0, -g), contactLaw(restitution, 0));
+    addPlane(world);
+    const BodyId id = world.addBody(body(Sphere{radius}, 1, Vec3(0, 0, radius + height)));
+    Bounces found;
+    double before = 0;
+    double peak = 0;
+    while (world.time() < duration) {
+        world.step();
+        if (world.stepCount() % 4096 == 0) plan.alive();
+        const double v = world.linearVelocity(id).z();
+        const double z = world.pose(id).position.z() - radius;
+        peak = std::max(peak, z + std::max(v, 0.0) * std::max(v, 0.0) / (2 * g));
+        if (before < 0 && v > 0) {
+            found.heights.push_back(0);
+            peak = z + v * v / (2 * g);
+        }
+        if (!found.heights.empty()) found.heights.back() = peak;
+        if (std::abs(v) > 0.01 * restitution) found.time = world.time();
+        if (world.stepCount() % std::max<std::int64_t>(1, static_cast<std::int64_t>(rate / 100)) == 0) {
+            found.path.x.push_back(world.time());
+            found.path.y.push_back(z);
+        }
+        before = v;
+    }
+    return found;
+}
+
+void measure(Result& result, const Plan& plan, double restitution) {
+    const double fall = std::sqrt(2 * height / g);
+    const double total = fall * (1 + restitution) / (1 - restitution);
+    std::vector<double> rates = {240, 960, 3840};
+    if (!plan.isQuick()) rates.insert(rates.end(), {15360, 61440});
+    // The restitution threshold, a little more than gravity's speed of one step, ends the bouncing.
+    const auto countable = [&](double rate) {
+        int n = 0;
+        while (n < bounces && std::sqrt(2 * g * height) * std::pow(restitution, n + 1) > 20 * g / rate) ++n;
+        return n;
+    };
+    Line path;
+    Convergence heights{fmt::format("heights, e = {}", restitution), "", {}, {}};
+    for (const double rate : rates) {
+        Bounces found = bounce(rate, restitution, 1.2 * total, plan);
+        const int counted = countable(rate);
+        double worst = 0;
+        for (int n = 0; n < counted; ++n) {
+            const double expected = height * std::pow(restitution, 2 * (n + 1));
+            const double measured = n < static_cast<int>(found.heights.size()) ? found.heights[n] : 0;
+            worst = std::max(worst, std::abs(measured / expected - 1));
+        }
+        const std::string setup = timeStepText(rate);
+        const std::string what =
+            fmt::format("heights of the first {} bounces, worst relative error, e = {}", counted, restitution);
+        const std::string note =
+            counted < bounces ? "later bounces are slower than 20 times gravity's speed of one time step" : "";
+        if (rate == rates.back()) {
+            result.atMost(what, "", worst, 1e-3, setup, note);
+        } else {
+            result.show(what, "", worst, setup, note);
+        }
+        result.relative(fmt::format("time until it rests, e = {}", restitution), "s", total, found.time, 0.01, setup);
+        if (rate < 960) result.quantities.back().rule = Rule::shown;
+        heights.time_steps.push_back(1 / rate);
+        heights.errors.push_back(worst);
+        if (rate == 960) path = std::move(found.path);
+    }
+    path.label = fmt::format("e = {}", restitution);
+    if (result.figures.empty()) result.figures.push_back({"Height at Δt = 1/960 s", "time [s]", "height [m]", {}});
+    result.figures.front().lines.push_back(std::move(path));
+    result.convergences.push_back(std::move(heights));
+}
+
+Result run(const Plan& plan) {
+    Result result;
+    for (const double restitution : {0.5, 0.8, 0.9}) measure(result, plan, restitution);
+    return result;
+}
+
+}  // namespace
+
+const Case bouncing{
+    "bouncing",
+    "Bouncing",
+    "A ball bounces lower and lower",
+    "hₙ = e²ⁿh; total time √(2h/g)·(1 + e)/(1 − e): 1.3546, 4.0637 and 8.5789 s",
+    "h = 1 m, e = 0.5, 0.8, 0.9. The impact happens somewhere within a time step, so that heights are of "
+    "first order in Δt; the target is judged at the shortest time step.",
+    run};
+
+}  // namespace cairn::validation

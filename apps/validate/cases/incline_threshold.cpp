@@ -1,0 +1,48 @@
+#include <cmath>
+
+#include "cases.h"
+#include "incline_box.h"
+
+namespace cairn::validation {
+
+namespace {
+
+constexpr double friction = 0.5;
+constexpr double watched = 1;     ///< [s]
+constexpr double slipped = 1e-4;  ///< [m]; 0.005° above the threshold it slides 0.5 mm in that time
+
+/// The angle at which the box begins to slide [°].
+double angleOfSlip(double rate, ResolutionKind resolver, const Plan& plan) {
+    const Settings settings = accurateSettings(rate, resolver);
+    const double expected = std::atan(friction) / degree;
+    return threshold(expected - 0.5, expected + 0.5, 0.002, [&](double angle) {
+        plan.alive();
+        InclineBox setup(settings, angle * degree, 0.3, contactLaw(0, friction));
+        runUntil(setup.world, watched);
+        return setup.displacement().norm() < slipped;
+    });
+}
+
+Result run(const Plan& plan) {
+    Result result;
+    const double expected = std::atan(friction) / degree;
+    for (const auto& [resolver, name] : {std::pair(ResolutionKind::impulse_queue, "impulse_queue"),
+                                         std::pair(ResolutionKind::accelerated_sweeps, "accelerated_sweeps")}) {
+        measureOver(result, plan.rates(),
+                    {{std::string("angle of slip, ") + name, "°", Rule::absolute, expected, 0.01, 240}},
+                    [&](double rate) { return std::vector{angleOfSlip(rate, resolver, plan)}; });
+    }
+    return result;
+}
+
+}  // namespace
+
+const Case incline_threshold{"incline-threshold",
+                             "Incline",
+                             "A box sticks exactly up to the angle of friction",
+                             "tan θ = µ",
+                             "µ = 0.5, box 0.4 × 0.4 × 0.1 m, heading 0.3 rad; it slips if it moved 0.1 mm in 1 s; "
+                             "bisection to 0.002°.",
+                             run};
+
+}  // namespace cairn::validation

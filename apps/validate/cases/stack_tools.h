@@ -1,0 +1,96 @@
+/// @file What the cases of stacks share: a pile that should stand, watched.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include "validate/case.h"
+#include "validate/world_tools.h"
+
+namespace cairn::validation {
+
+/// A resolver that claims to hold stacks.
+struct Resolver {
+    ResolutionKind kind;
+    const char* name;
+};
+inline constexpr std::array<Resolver, 2> resolvers = {
+    {{ResolutionKind::impulse_queue, "impulse_queue"}, {ResolutionKind::accelerated_sweeps, "accelerated_sweeps"}}};
+
+/// How a stack fared.
+struct Standing {
+    double drift = 0;        ///< largest displacement of a body from where it was after the first second [m]
+    double overlap = 0;      ///< largest [m]
+    double support = 0;      ///< largest relative error of the ground's impulse over the last quarter
+    double resolutions = 0;  ///< contacts resolved per step, mean
+    double ms = 0;           ///< per step, mean
+    double simulated = 0;    ///< [s]
+    bool stands = false;     ///< nothing moved by more than a quarter of the smallest size
+};
+
+/// Simulates a stack. Ends early where it fell or where `patience` of wall time is used up.
+/// @param weight of all bodies [N] @param size of the smallest body [m] @param patience [s]
+inline Standing watch(World& world, const std::vector<BodyId>& bodies, BodyId ground, double weight, double size,
+                      double duration, double patience, const Plan& plan) {
+    using Clock = std::chrono::steady_clock;
+    Standing standing;
+    const auto begin = Clock::now();
+    std::vector<Vec3> start, settled;
+    for (const BodyId id : bodies) start.push_back(world.pose(id).position);
+    settled = start;
+    double moved = 0;
+    const double rate = world.settings().steps_per_second;
+    double impulse_error = 0;
+    const auto spent = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+    while (world.time() < duration && spent() < patience && moved < size / 4) {
+        plan.alive();
+        world.step();
+        const Statistics& statistics = world.statistics();
+        standing.overlap = std::max(standing.overlap, statistics.largest_overlap);
+        standing.resolutions += static_cast<double>(statistics.global_iterations + statistics.shock_iterations);
+        const bool second_done = world.stepCount() == static_cast<std::int64_t>(rate);
+        moved = 0;
+        for (std::size_t i = 0; i < bodies.size(); ++i) {
+            const Vec3 position = world.pose(bodies[i]).position;
+            moved = std::max(moved, (position - start[i]).norm());
+            if (second_done) settled[i] = position;
+            if (world.time() > 1) standing.drift = std::max(standing.drift, (position - settled[i]).norm());
+        }
+        if (world.time() < 0.75 * duration) continue;
+        double given = 0;
+        for (const ContactInfo& c : world.contacts()) {
+            if (c.a == ground) given -= c.impulse.z();
+            if (c.b == ground) given += c.impulse.z();
+        }
+        impulse_error = std::max(impulse_error, std::abs(given * rate / weight - 1));
+    }
+    standing.simulated = world.time();
+    standing.stands = moved < size / 4;
+    if (world.time() <= 1) standing.drift = moved;
+    standing.support = impulse_error;
+    standing.ms = 1000 * spent() / static_cast<double>(world.stepCount());
+    standing.resolutions /= static_cast<double>(world.stepCount());
+    return standing;
+}
+
+/// Adds what a stack must do: stand, without drift, with the ground carrying its weight.
+inline void judge(Result& result, const Standing& s, const std::string& setup, double duration, double drift_allowed,
+                  double overlap_allowed, double support_allowed) {
+    const bool whole = s.simulated >= duration - 1e-9;
+    const std::string partly =
+        whole || !s.stands ? "" : "the wall time of the case was used up; not all of it was simulated";
+    result.atLeast("stands for [s]", "s", s.stands ? s.simulated : 0, duration, setup, s.stands ? partly : "fell");
+    result.atMost("drift after the first second", "m", s.drift, drift_allowed, setup);
+    if (overlap_allowed > 0) result.atMost("largest overlap", "m", s.overlap, overlap_allowed, setup);
+    if (whole) {
+        result.atMost("impulse of the ground against the weight, worst relative error", "", s.support, support_allowed,
+                      setup, "in the last quarter of the time");
+    }
+    result.show("resolutions per step", "", s.resolutions, setup);
+    result.show("wall time per step", "ms", s.ms, setup);
+}
+
+}  // namespace cairn::validation

@@ -1,0 +1,53 @@
+#include <fmt/format.h>
+
+#include "cases.h"
+#include "stack_tools.h"
+
+namespace cairn::validation {
+
+namespace {
+
+constexpr double edge = 0.1;  ///< [m]
+constexpr double mass = 1;    ///< [kg]
+
+Standing stand(const Settings& settings, int boxes, double duration, double patience, const Plan& plan) {
+    World world = makeWorld(settings, Vec3(0, 0, -g), contactLaw(0.25, 0.5));
+    const BodyId ground = addPlane(world);
+    std::vector<BodyId> bodies;
+    for (int i = 0; i < boxes; ++i) {
+        bodies.push_back(world.addBody(body(Box{Vec3::Constant(edge)}, mass, Vec3(0, 0, edge * (i + 0.5)))));
+    }
+    return watch(world, bodies, ground, boxes * mass * g, edge, duration, patience, plan);
+}
+
+Result run(const Plan& plan) {
+    Result result;
+    const double duration = plan.isQuick() ? 2 : 60;
+    const double patience = plan.isQuick() ? 3 : 120;
+    for (const int boxes : {10, 20, 40}) {
+        for (const Resolver& resolver : resolvers) {
+            const Settings settings = accurateSettings(960, resolver.kind);
+            judge(result, stand(settings, boxes, duration, patience, plan),
+                  fmt::format("{} boxes, accuracy, {}", boxes, resolver.name), duration, 1e-4, 0, 1e-6);
+        }
+        Settings fast = Settings::preset(Preset::performance, 240, g);
+        fast.sleep.sleeping = false;
+        for (const Resolver& resolver : resolvers) {
+            fast.resolution.resolution = resolver.kind;
+            judge(result, stand(fast, boxes, duration, patience, plan),
+                  fmt::format("{} boxes, performance, {}", boxes, resolver.name), duration, edge / 4, 2e-3, 1);
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+const Case towers{"towers",
+                  "Stacks",
+                  "Towers of boxes stand",
+                  "drift 0; impulse of the ground n·m·g·Δt",
+                  "10, 20 and 40 cubes of 10 cm and 1 kg, µ = 0.5, e = 0.25, 60 s, sleeping off.",
+                  run};
+
+}  // namespace cairn::validation
