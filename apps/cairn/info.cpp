@@ -43,6 +43,7 @@ std::string describeScene(const Scene& scene) {
         text += line("material", fmt::format("{}, {} kg/m³", material.name, material.density));
     }
     text += line("springs", fmt::format("{}", scene.springs.size()));
+    text += line("joints", fmt::format("{}", scene.joints.size()));
     text += line("events", fmt::format("{}", scene.events.size()));
     return text;
 }

@@ -26,6 +26,7 @@ enum class EventKind : std::uint8_t {
     woke,               ///< a body woke since the last step; Event::reason says why
     fell_asleep,        ///< a body fell asleep
     frozen,             ///< a body left the finite numbers and was fixed; World::faults() says more
+    joint_broke,        ///< a joint was loaded more than it bears and is gone
 };
 
 /// One event of a step.
@@ -33,12 +34,13 @@ struct Event {
     EventKind kind = EventKind::contact_begun;  ///< what happened
     WakeReason reason = WakeReason::none;       ///< of EventKind::woke
     BodyId a{};                                 ///< the body; of contacts the one with the smaller index
-    BodyId b{};                                 ///< the other body of a contact
+    BodyId b{};                                 ///< the other body of a contact or joint; none = the world
     std::uint32_t contacts = 0;                 ///< contact points of the two bodies in this step
     Vec3 point = Vec3::Zero();                  ///< the deepest of them [m, W]
     Vec3 normal = Vec3::Zero();                 ///< of that point: unit, from B to A, W
     double distance = 0;                        ///< of that point along the normal [m]; negative = overlap
     Vec3 impulse = Vec3::Zero();                ///< sum that A received in the step [N·s, W]; B received the opposite
+    JointId joint{};                            ///< of EventKind::joint_broke; its id is stale now
 };
 
 /// Which events a world collects; each level has those before it.

@@ -33,6 +33,13 @@ struct SceneBody {
     bool asleep = false;
 };
 
+/// A joint of a scene.
+struct SceneJoint {
+    std::size_t a = 0;             ///< index in Scene::bodies
+    std::optional<std::size_t> b;  ///< index in Scene::bodies; none = the world
+    JointDescription joint;        ///< all else, as the bodies stand at the beginning
+};
+
 /// A spring of a scene.
 struct SceneSpring {
     std::size_t a = 0;             ///< index of the body
@@ -92,6 +99,7 @@ struct Scene {
     std::vector<std::pair<std::pair<std::string, std::string>, PairProperties>> pairs;
     std::vector<SceneBody> bodies;
     std::vector<SceneSpring> springs;
+    std::vector<SceneJoint> joints;
     std::optional<Preset> preset;                                ///< of `settings.preset`
     std::vector<std::pair<std::string, SettingValue>> settings;  ///< the other fields of `settings`
 };

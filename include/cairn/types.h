@@ -51,6 +51,14 @@ struct SpringId {
     friend auto operator<=>(const SpringId&, const SpringId&) = default;
 };
 
+/// A stable name of a joint, with the same rules as BodyId.
+struct JointId {
+    std::uint32_t index = UINT32_MAX;  ///< slot in the world
+    std::uint32_t generation = 0;      ///< how many joints lived in the slot before
+
+    friend auto operator<=>(const JointId&, const JointId&) = default;
+};
+
 /// The index of a material of a world.
 enum class MaterialId : std::uint32_t {};
 
@@ -60,7 +68,7 @@ class InputError : public std::invalid_argument {
     using std::invalid_argument::invalid_argument;
 };
 
-/// An id names a body or spring that is no longer (or was never) in the world.
+/// An id names a body, spring or joint that is no longer (or was never) in the world.
 class StaleIdError : public InputError {
   public:
     using InputError::InputError;

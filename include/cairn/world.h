@@ -1,4 +1,5 @@
-/// @file The world: bodies, materials, springs and the time step. Right-handed, SI units, world frame W unless named.
+/// @file The world: bodies, materials, springs, joints and the time step. Right-handed, SI units, world frame W unless
+/// named.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "cairn/events.h"
+#include "cairn/joint.h"
 #include "cairn/material.h"
 #include "cairn/settings.h"
 #include "cairn/shape.h"
@@ -110,7 +112,7 @@ class World {
     // --- bodies ---
     /// @throws InputError names the member, its value and what is allowed
     BodyId addBody(const BodyDescription& description);
-    /// Wakes the sleeping bodies that touched it; its springs go with it. @throws StaleIdError
+    /// Wakes the sleeping bodies that touched it; its springs and joints go with it. @throws StaleIdError
     void removeBody(BodyId id);
     bool contains(BodyId id) const noexcept;
     /// All bodies, in ascending order of index.
@@ -157,6 +159,19 @@ class World {
     /// Moves the second anchor of a spring, wakes its bodies. @param anchor_b [m, frame of B or W] @throws as above
     void setSpringAnchor(SpringId id, const Vec3& anchor_b);
 
+    // --- joints ---
+    /// Joins bodies as they stand now. They no longer touch each other unless the description says so.
+    /// @throws InputError names the member, its value and what is allowed; StaleIdError
+    JointId addJoint(const JointDescription& description);
+    void removeJoint(JointId id);  ///< wakes its bodies @throws StaleIdError
+    bool contains(JointId id) const noexcept;
+    std::vector<JointId> joints() const;  ///< all of them, in ascending order of index
+    JointInfo joint(JointId id) const;    ///< @throws StaleIdError
+    /// Of hinges and sliders; a limit of 0 switches the motor off. Wakes the bodies. @throws as addJoint
+    void setJointMotor(JointId id, const JointMotor& motor);
+    /// Of hinges [rad, −π to π] and sliders [m]. Wakes the bodies. @throws as addJoint
+    void setJointLimits(JointId id, std::optional<double> lower, std::optional<double> upper);
+
     // --- global accelerations; a change wakes every body ---
     /// @param gravity [m/s², W] @throws InputError if not finite or contradicting the settings (3.2.5)
     void setGravity(const Vec3& gravity);
@@ -201,7 +216,8 @@ class World {
     void setEventLevel(EventLevel level);
     EventLevel eventLevel() const;
     /// What happened in the last step, in an order that does not depend on threads: contacts by (a, b), then bodies
-    /// that woke and fell asleep, by id, then faults as in faults(). Valid until the next step.
+    /// that woke and fell asleep, by id, then faults as in faults(), then joints that broke, by id. Valid until the
+    /// next step.
     std::span<const Event> events() const;
     double kineticEnergy() const;    ///< [J]
     double potentialEnergy() const;  ///< [J], in the sum of the global accelerations, zero at the origin

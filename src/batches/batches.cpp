@@ -9,7 +9,7 @@ namespace cairn {
 
 namespace {
 
-constexpr std::uint32_t no_batch = UINT32_MAX;
+constexpr std::uint32_t no_batch = Batches::none;
 
 bool isDynamic(std::span<const BodyKind> kind, BodyIndex i) {
     return kind[i] == BodyKind::dynamic;
@@ -37,28 +37,40 @@ void countsToOffsets(std::vector<std::uint32_t>& values) {
     std::exclusive_scan(values.begin(), values.end(), values.begin(), std::uint32_t{0});
 }
 
-/// Joins the bodies of each contact. Each group's representative is its lowest body, since the higher of two
+/// Joins the bodies of each contact and joint. Each group's representative is its lowest body, since the higher of two
 /// representatives is always linked to the lower one.
-void joinBodies(std::span<const BodyKind> kind, std::span<const Contact> contacts, std::vector<std::uint32_t>& parent) {
+void joinBodies(std::span<const BodyKind> kind, std::span<const Contact> contacts, std::span<const Joint> joints,
+                std::vector<std::uint32_t>& parent) {
     parent.resize(kind.size());
     std::iota(parent.begin(), parent.end(), 0);
-    for (const Contact& contact : contacts) {
-        if (!isDynamic(kind, contact.a) || !isDynamic(kind, contact.b)) continue;
-        const BodyIndex p = representative(parent, contact.a);
-        const BodyIndex q = representative(parent, contact.b);
+    const auto join = [&](BodyIndex a, BodyIndex b) {
+        const BodyIndex p = representative(parent, a);
+        const BodyIndex q = representative(parent, b);
         parent[std::max(p, q)] = std::min(p, q);
+    };
+    for (const Contact& contact : contacts) {
+        if (isDynamic(kind, contact.a) && isDynamic(kind, contact.b)) join(contact.a, contact.b);
+    }
+    for (const Joint& joint : joints) {
+        if (joint.present && isMovable(kind, joint.a) && isMovable(kind, joint.b)) join(joint.a, joint.b);
     }
 }
 
-/// Numbers the groups that have contacts in ascending order of their lowest bodies. @return their number
-std::uint32_t numberBatches(std::span<const BodyKind> kind, std::span<const Contact> contacts, BatchScratch& scratch) {
-    // A body is in a batch if it has a contact; its number follows below.
+/// Numbers the groups that have contacts or joints in ascending order of their lowest bodies. @return their number
+std::uint32_t numberBatches(std::span<const BodyKind> kind, std::span<const Contact> contacts,
+                            std::span<const Joint> joints, BatchScratch& scratch) {
+    // A body is in a batch if it has a contact or a joint; its number follows below.
     constexpr std::uint32_t in_some_batch = 0;
     auto& batch = scratch.batch_of_body;
     batch.assign(kind.size(), no_batch);
     for (const Contact& contact : contacts) {
         batch[ownerOf(kind, contact)] = in_some_batch;
         if (isDynamic(kind, contact.b)) batch[contact.b] = in_some_batch;
+    }
+    for (const Joint& joint : joints) {
+        if (!joint.present) continue;
+        if (isMovable(kind, joint.a)) batch[joint.a] = in_some_batch;
+        if (isMovable(kind, joint.b)) batch[joint.b] = in_some_batch;
     }
     std::uint32_t count = 0;
     for (std::size_t i = 0; i < batch.size(); ++i) {
@@ -72,9 +84,9 @@ std::uint32_t numberBatches(std::span<const BodyKind> kind, std::span<const Cont
 }  // namespace
 
 void buildBatches(std::span<const BodyKind> kind, std::span<const Contact> contacts, BatchScratch& scratch,
-                  Batches& batches) {
-    joinBodies(kind, contacts, scratch.parent);
-    const std::uint32_t count = numberBatches(kind, contacts, scratch);
+                  Batches& batches, std::span<const Joint> joints) {
+    joinBodies(kind, contacts, joints, scratch.parent);
+    const std::uint32_t count = numberBatches(kind, contacts, joints, scratch);
     const auto& batch_of_body = scratch.batch_of_body;
 
     batches.body_begin.assign(count + 1, 0);

@@ -68,42 +68,48 @@ void rotateFreely(Quat& orientation, Vec3& w, const Vec3& inertia_B, double time
     w += angularVelocity(orientation, inertiaInv_B, lost);
 }
 
+void advancePosition(BodyStorage& bodies, BodyIndex i, const IntegrationSettings& settings, double time_step) {
+    bodies.linear_step[i] = bodies.v[i] * time_step;
+    bodies.position[i] += bodies.linear_step[i];
+    if (bodies.w[i].isZero(0)) return;
+    if (isIsotropic(bodies.inertia_B[i]) || !settings.gyroscopic) {
+        rotateUniformly(bodies.orientation[i], bodies.w[i], time_step);
+    } else {
+        rotateFreely(bodies.orientation[i], bodies.w[i], bodies.inertia_B[i], time_step);
+    }
+    if (!isIsotropic(bodies.inertia_B[i])) {
+        bodies.inertiaInv_W[i] = toWorldInertia(bodies.inertiaInv_B[i], bodies.orientation[i]);
+    }
+}
+
 void advancePositions(BodyStorage& bodies, const IntegrationSettings& settings, double time_step,
                       const Executor& executor) {
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
-        for (std::size_t i = begin; i < end; ++i) {
+        for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
             if (bodies.kind[i] != BodyKind::dynamic || bodies.asleep[i] != 0) {
                 bodies.linear_step[i].setZero();
-                continue;
-            }
-            bodies.linear_step[i] = bodies.v[i] * time_step;
-            bodies.position[i] += bodies.linear_step[i];
-            if (bodies.w[i].isZero(0)) continue;
-            if (isIsotropic(bodies.inertia_B[i])) {
-                rotateUniformly(bodies.orientation[i], bodies.w[i], time_step);
-                continue;
-            }
-            if (settings.gyroscopic) {
-                rotateFreely(bodies.orientation[i], bodies.w[i], bodies.inertia_B[i], time_step);
             } else {
-                rotateUniformly(bodies.orientation[i], bodies.w[i], time_step);
+                advancePosition(bodies, i, settings, time_step);
             }
-            bodies.inertiaInv_W[i] = toWorldInertia(bodies.inertiaInv_B[i], bodies.orientation[i]);
         }
     });
 }
 
+Vec3 accelerationOf(const BodyStorage& bodies, BodyIndex i, const Vec3& acceleration,
+                    const GravityDampingSettings& settings) {
+    const double threshold = settings.damping_threshold * settings.damping_threshold;
+    const bool slow = squaredMotion(bodies.v[i], bodies.w[i], bodies.r_max[i]) < threshold;
+    const Vec3 force = bodies.force[i] + bodies.constant_force[i];
+    return (slow ? 1 - settings.damping : 1) * acceleration + force * bodies.mass_inv[i];
+}
+
 void advanceVelocities(BodyStorage& bodies, const Vec3& acceleration, const GravityDampingSettings& settings,
                        double time_step, const Executor& executor) {
-    const double threshold = settings.damping_threshold * settings.damping_threshold;
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             if (bodies.kind[i] == BodyKind::dynamic && bodies.asleep[i] == 0) {
-                const bool slow = squaredMotion(bodies.v[i], bodies.w[i], bodies.r_max[i]) < threshold;
-                const Vec3 force = bodies.force[i] + bodies.constant_force[i];
                 const Vec3 torque = bodies.torque[i] + bodies.constant_torque[i];
-                const double share = slow ? 1 - settings.damping : 1;
-                bodies.v[i] += (share * acceleration + force * bodies.mass_inv[i]) * time_step;
+                bodies.v[i] += accelerationOf(bodies, static_cast<BodyIndex>(i), acceleration, settings) * time_step;
                 bodies.w[i] += bodies.inertiaInv_W[i] * torque * time_step;
             }
             bodies.force[i].setZero();
@@ -142,11 +148,12 @@ void noteForced(const BodyStorage& bodies, const Executor& executor, VelocitiesB
     });
 }
 
-void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, double time_step,
-                          const Executor& executor) {
+void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, std::span<const std::uint8_t> jointed,
+                          double time_step, const Executor& executor) {
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             if (bodies.kind[i] != BodyKind::dynamic || bodies.asleep[i] != 0) continue;
+            if (!jointed.empty() && jointed[i] != 0) continue;
             if (!(speedChange(bodies, before, i) <= smooth_multiple * before.forced[i])) continue;
             bodies.position[i] += (bodies.v[i] - before.v[i]) * (time_step / 2);
             const Vec3 dw = bodies.w[i] - before.w[i];

@@ -19,6 +19,9 @@ void rotateFreely(Quat& orientation, Vec3& w, const Vec3& inertia_B, double time
 /// Turns a body for a time at constant angular velocity [rad/s, W].
 void rotateUniformly(Quat& orientation, const Vec3& w, double time);
 
+/// Moves one body by its velocities and notes ℓ. @pre dynamic and awake @param time_step [s]
+void advancePosition(BodyStorage& bodies, BodyIndex i, const IntegrationSettings& settings, double time_step);
+
 /// Moves all awake dynamic bodies by their velocities and notes ℓ (linear_step); others get ℓ = 0.
 /// @param time_step [s]
 void advancePositions(BodyStorage& bodies, const IntegrationSettings& settings, double time_step,
@@ -41,9 +44,14 @@ void noteForced(const BodyStorage& bodies, const Executor& executor, VelocitiesB
 /// the beginning of the step, this adds what is missing to the mean of beginning and end. Under constant forces that is
 /// the exact parabola; bodies at rest, whose velocity does not change, stay where they are. Where an impact changed the
 /// velocity by more than forces could, the mean means nothing and the body is left alone.
-/// @pre the resolution is done @param time_step [s]
-void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, double time_step,
-                          const Executor& executor);
+/// @pre the resolution is done @param jointed [slots] 1 = left to JointFlight; empty = none is @param time_step [s]
+void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, std::span<const std::uint8_t> jointed,
+                          double time_step, const Executor& executor);
+
+/// What the forces that are known change of a body's velocity per time [m/s², W].
+/// @param acceleration sum of the global accelerations [m/s², W]
+Vec3 accelerationOf(const BodyStorage& bodies, BodyIndex i, const Vec3& acceleration,
+                    const GravityDampingSettings& settings);
 
 /// Adds to the velocities of all awake dynamic bodies what the forces give in one step; slow bodies feel only a part of
 /// the global acceleration (Algorithm 12). Clears the one-step forces of all bodies.

@@ -22,12 +22,6 @@ struct SweptContact {
     double largest_tangential = 0;  ///< eigenvalue of K's tangential part [1/kg]
 };
 
-/// Velocities of a body, or a direction in their space.
-struct Twist {
-    Vec3 v;  ///< [m/s, W]
-    Vec3 w;  ///< [rad/s, W]
-};
-
 /// Rounds of slidingSteps() in every visit of a sliding contact. The sweeps converge with any number; a few save
 /// sweeps.
 constexpr int sliding_rounds = 4;
@@ -108,13 +102,15 @@ class AcceleratedSweepsResolution final : public Resolution {
         std::int64_t visited = 0;
         double squared_gradient = 0;
         for (std::int64_t sweep = 1;; ++sweep) {
+            const bool bounds_changed = local_.joints.resolveBounds(local_.bodies, settings.resolution_threshold);
             noteBefore();
             for (std::size_t i = 0; i < swept_.size(); ++i) resolveContact(i);
             for (std::size_t i = swept_.size(); i-- > 0;) resolveContact(i);
             visited += 2 * static_cast<std::int64_t>(swept_.size());
             const Change change = changeOfSweep();
-            if (!(change.largest_speed > settings.resolution_threshold) || sweep >= settings.sweep_limit) break;
-            const bool descends = squared_gradient > 0 && change.squared <= squared_gradient;
+            const bool steady = !(change.largest_speed > settings.resolution_threshold) && !bounds_changed;
+            if (steady || sweep >= settings.sweep_limit) break;
+            const bool descends = !bounds_changed && squared_gradient > 0 && change.squared <= squared_gradient;
             accelerate(descends ? change.squared / squared_gradient : 0);
             squared_gradient = change.squared;
         }
@@ -145,7 +141,7 @@ class AcceleratedSweepsResolution final : public Resolution {
             const ContactFrame& frame = local_.contacts[i];
             const double closing = local_.velocityOf(frame)[0];
             SweptContact& s = swept_[i];
-            s.k = collisionMatrix(frame, local_.bodies[frame.a], local_.bodies[frame.b]);
+            s.k = local_.collisionMatrixOf(frame);
             s.friction = frame.static_friction;
             s.largest_tangential = largestTangential(s.k);
             s.target = closing < -settings.restitution_threshold ? -frame.restitution * closing : 0;
@@ -153,13 +149,7 @@ class AcceleratedSweepsResolution final : public Resolution {
             if (!(s.impulse[0] > 0) || !isResolvable(frame)) s.impulse.setZero();
             s.direction.setZero();
         }
-        for (std::size_t i = 0; i < swept_.size(); ++i) push(local_.contacts[i], swept_[i].impulse);
-    }
-
-    void push(const ContactFrame& frame, const Vec3& j) {
-        const Vec3 impulse = frame.basis * j;
-        apply(velocityChange(local_.bodies[frame.a], frame.r_a, impulse), local_.bodies[frame.a]);
-        apply(velocityChange(local_.bodies[frame.b], frame.r_b, -impulse), local_.bodies[frame.b]);
+        for (std::size_t i = 0; i < swept_.size(); ++i) local_.push(local_.contacts[i], swept_[i].impulse);
     }
 
     void noteBefore() {
@@ -174,7 +164,7 @@ class AcceleratedSweepsResolution final : public Resolution {
         const Vec3 velocity = local_.velocityOf(frame);
         if (!isResolvable(frame) || !velocity.allFinite()) return;
         const Vec3 impulse = projectedImpulse(frame, swept_[i], velocity);
-        push(frame, impulse - swept_[i].impulse);
+        local_.push(frame, impulse - swept_[i].impulse);
         swept_[i].impulse = impulse;
     }
 
@@ -212,6 +202,7 @@ class AcceleratedSweepsResolution final : public Resolution {
         for (std::size_t i = 0; i < swept_.size(); ++i) {
             local_.contacts[i].impulse = local_.contacts[i].basis * swept_[i].impulse;
         }
+        local_.joints.settle(local_.contacts, local_.bodies);
         local_.scatter(batch, contacts, bodies);
     }
 

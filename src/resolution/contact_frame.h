@@ -74,10 +74,10 @@ inline Symmetric3 collisionMatrix(const ContactFrame& frame, const LocalBody& a,
     return k;
 }
 
-/// Stores the first row of K and its inverse. Where K cannot be inverted (masses beyond what doubles can divide) the
-/// contact keeps its normal part only, and where not even that exists it cannot be resolved: both parts become 0.
-inline void updateCollisionMatrix(ContactFrame& frame, const LocalBody& a, const LocalBody& b) {
-    const Symmetric3 k = collisionMatrix(frame, a, b);
+/// Stores the first row of K and its inverse. @param k in contact coordinates [1/kg]. Where K cannot be inverted
+/// (masses beyond what doubles can divide) the contact keeps its normal part only, and where not even that exists it
+/// cannot be resolved: both parts become 0.
+inline void setCollisionMatrix(ContactFrame& frame, const Symmetric3& k) {
     frame.k_row = Vec3(k.xx, k.xy, k.xz);
     frame.k_inv = inverse(k);
     if (isFinite(frame.k_inv) && frame.k_inv.xx > 0) return;

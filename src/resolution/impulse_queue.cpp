@@ -63,6 +63,20 @@ RunOutcome QueueSolver::runWith(Queue& queue, std::span<const std::uint32_t> mem
     return outcome;
 }
 
+/// The impulse of a contact whose bodies have joints changes everything that these tie together.
+template <class Queue>
+void QueueSolver::pushJointed(Queue& queue, std::uint32_t contact, const Vec3& j) {
+    ContactFrame& frame = batch.contacts[contact];
+    frame.impulse += frame.basis * j;
+    batch.push(frame, j);
+    batch.joints.forChanged(frame, [&](std::uint32_t body, const Twist& change) {
+        if (batch.bodies[body].mass_inv > 0) rows.update(body, {change.v, change.w}, delta_);
+    });
+    batch.joints.forChanged(frame, [&](std::uint32_t body, const Twist&) {
+        if (batch.bodies[body].mass_inv > 0) queue.bodyChanged(body);
+    });
+}
+
 /// Lines 12–23 of Algorithm 9. @return 1 if the contact was resolved, 0 if it turned out not to close
 template <class Queue>
 std::int64_t QueueSolver::resolve(Queue& queue, std::uint32_t contact) {
@@ -79,6 +93,10 @@ std::int64_t QueueSolver::resolve(Queue& queue, std::uint32_t contact) {
     }
     delta_[contact] = velocity[0];
     const Vec3 j = contactImpulse(frame, velocity, settings_.restitution_threshold);
+    if (batch.joints.holds(frame)) {
+        pushJointed(queue, contact, j);
+        return 1;
+    }
     const ContactChange change = applyImpulse(frame, j, a, b);
     // A body of infinite mass keeps its velocity and with it the δ of its contacts.
     const bool a_changes = a.mass_inv > 0;
@@ -102,8 +120,7 @@ class ImpulseQueueResolution final : public Resolution {
         solver_.begin(batch, contacts, bodies, settings);
         all_.resize(batch.contacts.size());
         std::iota(all_.begin(), all_.end(), 0U);
-        const RunOutcome outcome = solver_.run(all_, settings.global_iterations);
-        counts.global_iterations = outcome.iterations;
+        const RunOutcome outcome = runAll(settings, counts);
         if (outcome.still_closing && settings.shock_propagation) {
             const ShockOutcome shock = shock_propagation_.run(solver_, settings.shock_iterations);
             counts.shock_iterations = shock.iterations;
@@ -114,6 +131,20 @@ class ImpulseQueueResolution final : public Resolution {
     }
 
   private:
+    /// Contacts, and between them ropes, limits and motors, until neither changes the other.
+    RunOutcome runAll(const ResolutionSettings& settings, ResolutionCounts& counts) {
+        LocalBatch& batch = solver_.batch;
+        batch.joints.resolveBounds(batch.bodies, settings.resolution_threshold);
+        for (int round = 1;; ++round) {
+            const RunOutcome outcome = solver_.run(all_, settings.global_iterations);
+            counts.global_iterations += outcome.iterations;
+            if (outcome.still_closing || round == most_rounds) return outcome;
+            if (!batch.joints.resolveBounds(batch.bodies, settings.resolution_threshold)) return outcome;
+        }
+    }
+
+    static constexpr int most_rounds = 20;
+
     QueueSolver solver_;
     ShockPropagation shock_propagation_;
     std::vector<std::uint32_t> all_;

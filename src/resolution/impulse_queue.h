@@ -45,6 +45,8 @@ class QueueSolver {
     template <class Queue>
     RunOutcome runWith(Queue& queue, std::span<const std::uint32_t> members, std::int64_t limit);
     template <class Queue>
+    void pushJointed(Queue& queue, std::uint32_t contact, const Vec3& j);
+    template <class Queue>
     std::int64_t resolve(Queue& queue, std::uint32_t contact);
 
     ResolutionSettings settings_;

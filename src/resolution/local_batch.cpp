@@ -1,5 +1,7 @@
 #include "resolution/local_batch.h"
 
+#include "resolution/impulse.h"
+
 namespace cairn {
 
 namespace {
@@ -32,6 +34,7 @@ void LocalBatch::gather(const BatchView& batch, std::span<const Contact> all_con
     bodies.clear();
     for (const BodyIndex slot : batch.bodies) localIndex(slot, state);
     dynamic_bodies = bodies.size();
+    joints.gather(batch.joints, bodies, local_of_slot_);
     contacts.resize(batch.contacts.size());
     for (std::size_t i = 0; i < contacts.size(); ++i) {
         const Contact& contact = all_contacts[batch.contacts[i]];
@@ -50,6 +53,16 @@ void LocalBatch::gather(const BatchView& batch, std::span<const Contact> all_con
     for (const LocalBody& body : bodies) local_of_slot_[body.slot] = none;
 }
 
+void LocalBatch::push(const ContactFrame& c, const Vec3& impulse) {
+    const Vec3 impulse_W = c.basis * impulse;
+    if (joints.holds(c)) {
+        joints.push(c, impulse_W, bodies);
+        return;
+    }
+    apply(velocityChange(bodies[c.a], c.r_a, impulse_W), bodies[c.a]);
+    apply(velocityChange(bodies[c.b], c.r_b, -impulse_W), bodies[c.b]);
+}
+
 void LocalBatch::scatter(const BatchView& batch, std::span<Contact> all_contacts, const BodyState& state) const {
     for (std::size_t i = 0; i < dynamic_bodies; ++i) {
         const LocalBody& body = bodies[i];
@@ -59,6 +72,7 @@ void LocalBatch::scatter(const BatchView& batch, std::span<Contact> all_contacts
         state.v[body.slot] = body.v;
         state.w[body.slot] = body.w;
     }
+    joints.scatter();
     for (std::size_t i = 0; i < contacts.size(); ++i) all_contacts[batch.contacts[i]].impulse += contacts[i].impulse;
 }
 

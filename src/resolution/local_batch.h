@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "resolution/batch_joints.h"
 #include "resolution/contact_frame.h"
 #include "resolution/resolution.h"
 
@@ -16,6 +17,7 @@ class LocalBatch {
     std::vector<LocalBody> bodies;       ///< the batch's dynamic bodies, then the fixed bodies they touch
     std::vector<ContactFrame> contacts;  ///< in the batch's order
     std::size_t dynamic_bodies = 0;      ///< bodies[i] is dynamic for i below this
+    BatchJoints joints;                  ///< hold at any time: impulses at contacts go through them
 
     /// Initialises bodies and contacts (lines 2–4 of Algorithm 9). Keeps its memory between calls.
     void gather(const BatchView& batch, std::span<const Contact> all_contacts, const BodyState& state);
@@ -24,7 +26,14 @@ class LocalBatch {
 
     bool isFixed(std::uint32_t body) const { return body >= dynamic_bodies; }
     Vec3 velocityOf(const ContactFrame& c) const { return relativeVelocity(c, bodies[c.a], bodies[c.b]); }
-    void updateCollisionMatrixOf(ContactFrame& c) const { updateCollisionMatrix(c, bodies[c.a], bodies[c.b]); }
+    /// With the joints holding [1/kg, contact coordinates].
+    Symmetric3 collisionMatrixOf(const ContactFrame& c) {
+        return joints.holds(c) ? joints.collisionMatrix(c, bodies) : collisionMatrix(c, bodies[c.a], bodies[c.b]);
+    }
+    void updateCollisionMatrixOf(ContactFrame& c) { setCollisionMatrix(c, collisionMatrixOf(c)); }
+    /// Applies an impulse, on A, at a contact to its bodies and all that joints tie to them.
+    /// @param impulse [N·s, contact coordinates]
+    void push(const ContactFrame& c, const Vec3& impulse);
 
   private:
     std::uint32_t localIndex(BodyIndex slot, const BodyState& state);

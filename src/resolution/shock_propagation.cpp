@@ -61,6 +61,7 @@ void ShockPropagation::freezeSubset(QueueSolver& solver) {
         batch.bodies[body].mass_inv = 0;
         batch.bodies[body].inertia_inv = {};
     }
+    batch.joints.factorise(batch.bodies);
     next_subset_.clear();
     for (const std::uint32_t body : subset_) {
         for (const std::uint32_t i : solver.rows.contactsOf(body)) {
@@ -75,6 +76,11 @@ void ShockPropagation::freezeSubset(QueueSolver& solver) {
         }
     }
     std::sort(next_subset_.begin(), next_subset_.end());
+    if (batch.joints.empty()) return;
+    // What is tied to a body of infinite mass gives way less, too.
+    for (ContactFrame& contact : batch.contacts) {
+        if (batch.joints.holds(contact)) batch.updateCollisionMatrixOf(contact);
+    }
 }
 
 }  // namespace cairn

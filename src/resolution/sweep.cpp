@@ -19,9 +19,10 @@ class SweepResolution final : public Resolution {
         local_.gather(batch, contacts, bodies);
         ResolutionCounts counts;
         for (std::int64_t sweep = 0; sweep < settings.sweeps; ++sweep) {
+            const bool bounds_changed = local_.joints.resolveBounds(local_.bodies, settings.resolution_threshold);
             const std::int64_t resolved = sweepOnce(settings);
             counts.global_iterations += resolved;
-            if (resolved == 0) break;
+            if (resolved == 0 && !bounds_changed) break;
         }
         local_.scatter(batch, contacts, bodies);
         return counts;
@@ -35,7 +36,8 @@ class SweepResolution final : public Resolution {
             const bool closing = velocity[0] < -settings.resolution_threshold && std::isfinite(velocity[0]);
             if (!closing || !isResolvable(contact)) continue;
             const Vec3 j = contactImpulse(contact, velocity, settings.restitution_threshold);
-            applyImpulse(contact, j, local_.bodies[contact.a], local_.bodies[contact.b]);
+            local_.push(contact, j);
+            contact.impulse += contact.basis * j;
             ++resolved;
         }
         return resolved;

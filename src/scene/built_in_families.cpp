@@ -132,6 +132,35 @@ Scene cradleScene(std::string name, int balls, int moving) {
     return scene;
 }
 
+Scene swingingCradleScene(std::string name, int balls, int moving) {
+    constexpr double radius = 0.05;
+    constexpr double length = 1;
+    constexpr double angle = 0.3;
+    Scene scene = emptyScene(std::move(name), 20, {0, 0, -9.81});
+    scene.default_pair = {.restitution = 1, .static_friction = 0, .kinetic_friction = 0};
+    for (int i = 0; i < balls; ++i) {
+        const Vec3 pivot(2 * radius * i, 0, length);
+        const double turn = i < moving ? angle : 0;
+        const Vec3 rod = length * Vec3(-std::sin(turn), 0, -std::cos(turn));
+        SceneBody ball = dynamicBody(Sphere{radius}, "iron", pivot + rod);
+        ball.orientation = tidy(aboutAxis(Vec3::UnitY(), turn));
+        scene.bodies.push_back(ball);
+        JointDescription hinge{.kind = JointKind::hinge, .anchor = tidy(pivot), .axis = Vec3::UnitY()};
+        scene.joints.push_back({static_cast<std::size_t>(i), {}, hinge});
+    }
+    // Every impact must keep its energy: none is too slow to bounce, nothing is moved apart, nothing is damped.
+    scene.preset = Preset::accuracy;
+    scene.settings = {{"steps_per_second", 3840.0},
+                      {"exact_flight", true},
+                      {"correction", std::string("none")},
+                      {"restitution_threshold", 1e-9},
+                      {"resolution_threshold", 1e-10},
+                      {"global_iterations", 0.0},
+                      {"sleeping", false},
+                      {"damping", 0.0}};
+    return scene;
+}
+
 Scene towerScene(std::string name, int boxes) {
     constexpr double size = 0.1;
     Scene scene = emptyScene(std::move(name), 60, {0, 0, -10});

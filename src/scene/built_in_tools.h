@@ -65,6 +65,7 @@ Scene cageScene(std::string name, const Vec3& size, double body_size, int side, 
 // Scenes of any size, and those of thesis §5.6.
 Scene catapultScene(std::string name);
 Scene cradleScene(std::string name, int balls, int moving);
+Scene swingingCradleScene(std::string name, int balls, int moving);
 Scene towerScene(std::string name, int boxes);
 Scene wallScene(std::string name, int rows);
 Scene heapScene(std::string name, int bodies);

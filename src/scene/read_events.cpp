@@ -8,9 +8,7 @@
 #include "scene/scene_reading.h"
 
 namespace cairn {
-namespace {
 
-/// A body given by index or by name.
 std::size_t readBodyReference(const JsonNode& node, const SceneReading& reading) {
     const std::size_t count = reading.scene.bodies.size();
     const Json& value = node.value();
@@ -30,6 +28,8 @@ std::size_t readBodyReference(const JsonNode& node, const SceneReading& reading)
     }
     return value.get<std::size_t>();
 }
+
+namespace {
 
 constexpr std::string_view event_rule =
     "an event has either gravity, or a body with exactly one of set_velocity, impulse, force, torque and remove";

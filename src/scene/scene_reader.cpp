@@ -50,7 +50,7 @@ Scene parseScene(std::string_view json, std::string_view source) {
     const Json document = parseJson(json, source);
     const JsonNode root(document, source);
     root.expectKeys(
-        {"name", "duration", "gravity", "events", "materials", "contacts", "bodies", "springs", "settings"});
+        {"name", "duration", "gravity", "events", "materials", "contacts", "bodies", "springs", "joints", "settings"});
     SceneReading reading;
     Scene& scene = reading.scene;
     scene.name = root.required("name", "a text that is not empty").text();
@@ -61,6 +61,7 @@ Scene parseScene(std::string_view json, std::string_view source) {
     readBodies(root.required("bodies", "an array of bodies; it may be empty"), reading);
     if (const auto node = root.find("events")) readEvents(*node, reading);
     if (const auto node = root.find("springs")) readSprings(*node, reading);
+    if (const auto node = root.find("joints")) readJoints(*node, reading);
     if (const auto node = root.find("settings")) readSettings(*node, scene);
     return scene;
 }

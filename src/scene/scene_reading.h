@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cairn/scene.h"
+#include "scene/joint_names.h"
 #include "scene/json_node.h"
 
 namespace cairn {
@@ -22,9 +23,12 @@ void readContacts(const JsonNode& node, SceneReading& reading);
 void readBodies(const JsonNode& node, SceneReading& reading);
 void readEvents(const JsonNode& node, SceneReading& reading);
 void readSprings(const JsonNode& node, SceneReading& reading);
+void readJoints(const JsonNode& node, SceneReading& reading);
 
 /// @throws InputError
 Shape readShape(const JsonNode& node);
 Quat readOrientation(const JsonNode& node);
+/// The index of a body that is given by index or name.
+std::size_t readBodyReference(const JsonNode& node, const SceneReading& reading);
 
 }  // namespace cairn

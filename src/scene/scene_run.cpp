@@ -115,6 +115,13 @@ void addSpring(const SceneSpring& spring, const std::vector<BodyId>& ids, World&
     world.addSpring(description);
 }
 
+void addJoint(const SceneJoint& joint, const std::vector<BodyId>& ids, World& world) {
+    JointDescription description = joint.joint;
+    description.a = bodyId(ids, joint.a);
+    description.b = joint.b ? std::optional(bodyId(ids, *joint.b)) : std::nullopt;
+    world.addJoint(description);
+}
+
 /// True if the action is for a body that is no longer in the world.
 template <class Action>
 bool isGone(const World& world, const std::vector<BodyId>& ids, const Action& action) {
@@ -163,6 +170,9 @@ SceneRun::SceneRun(const Scene& scene, const Settings& settings) : scene_(scene)
     }
     for (std::size_t i = 0; i < scene_.springs.size(); ++i) {
         inContext(fmt::format("spring {}", i), [&] { addSpring(scene_.springs[i], ids_, world_); });
+    }
+    for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
+        inContext(fmt::format("joint {}", i), [&] { addJoint(scene_.joints[i], ids_, world_); });
     }
 }
 

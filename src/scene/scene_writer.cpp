@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cairn/scene.h"
+#include "scene/joint_names.h"
 #include "scene/json_node.h"
 
 namespace cairn {
@@ -167,6 +168,31 @@ std::string contactsText(const Scene& scene) {
     return out + "}";
 }
 
+std::string jointText(const SceneJoint& scene_joint) {
+    const JointDescription& joint = scene_joint.joint;
+    std::string out =
+        fmt::format(R"({{"type":"{}","a":{})", jointNames()[static_cast<std::size_t>(joint.kind)], scene_joint.a);
+    const auto addNumber = [&out](std::string_view key, const std::optional<double>& value) {
+        if (value && std::isfinite(*value)) out += fmt::format(R"(,"{}":{})", key, number(*value));
+    };
+    if (scene_joint.b) out += fmt::format(R"(,"b":{})", *scene_joint.b);
+    if (!isOmitted(joint.anchor)) out += fmt::format(R"(,"anchor":{})", vector(joint.anchor));
+    if (joint.anchor_b) out += fmt::format(R"(,"anchor_b":{})", vector(*joint.anchor_b));
+    const bool has_axis = joint.kind == JointKind::hinge || joint.kind == JointKind::slider;
+    if (has_axis) out += fmt::format(R"(,"axis":{})", vector(joint.axis));
+    addNumber("length", joint.length);
+    addNumber("lower", joint.lower);
+    addNumber("upper", joint.upper);
+    if (joint.motor) {
+        out += fmt::format(R"(,"motor":{{"speed":{},"limit":{}}})", number(joint.motor->speed),
+                           number(joint.motor->limit));
+    }
+    addNumber("break_force", joint.break_force);
+    addNumber("break_torque", joint.break_torque);
+    if (joint.collide) out += R"(,"collide":true)";
+    return out + "}";
+}
+
 std::string springText(const SceneSpring& spring) {
     std::string out = fmt::format(R"({{"a":{})", spring.a);
     if (spring.b) out += fmt::format(R"(,"b":{})", *spring.b);
@@ -244,6 +270,7 @@ std::string formatScene(const Scene& scene) {
     out += fmt::format("\"materials\":{},\n\"contacts\":{},\n\"bodies\":{}", materialsText(scene), contactsText(scene),
                        lines(scene.bodies, bodyText));
     if (!scene.springs.empty()) out += fmt::format(",\n\"springs\":{}", lines(scene.springs, springText));
+    if (!scene.joints.empty()) out += fmt::format(",\n\"joints\":{}", lines(scene.joints, jointText));
     if (scene.preset || !scene.settings.empty()) out += fmt::format(",\n\"settings\":{}", settingsText(scene));
     return out + "}\n";
 }

@@ -40,6 +40,39 @@ double initialMotion(const SleepSettings& settings) {
     return limit * limit;
 }
 
+namespace {
+
+/// Whether a constant force is too weak to show within one step: such a body must stay awake.
+bool isWeaklyPushed(const BodyState& bodies, const MotionState& state, BodyIndex i, double threshold,
+                    double time_step) {
+    const Vec3 dv = state.constant_force[i] * (bodies.mass_inv[i] * time_step);
+    const Vec3 dw = bodies.inertiaInv_W[i] * state.constant_torque[i] * time_step;
+    const double gained = squaredMotion(dv, dw, state.r_max[i]);
+    return gained > 0 && gained <= threshold;
+}
+
+void putToSleep(const BodyState& bodies, const MotionState& state, BodyIndex i, double threshold) {
+    bodies.v[i].setZero();
+    bodies.w[i].setZero();
+    state.motion[i] = threshold;
+    bodies.asleep[i] = 1;
+}
+
+}  // namespace
+
+void fallAsleepTogether(const BodyState& bodies, const MotionState& state, const SleepSettings& settings,
+                        double time_step, std::span<const BodyIndex> group) {
+    const double threshold = settings.sleep_threshold * settings.sleep_threshold;
+    const bool all = std::ranges::all_of(group, [&](BodyIndex i) {
+        return bodies.asleep[i] == 0 && state.motion[i] < threshold &&
+               !isWeaklyPushed(bodies, state, i, threshold, time_step);
+    });
+    if (!all) return;
+    for (const BodyIndex i : group) {
+        if (!bodies.isFixed(i)) putToSleep(bodies, state, i, threshold);
+    }
+}
+
 void fallAsleep(const BodyState& bodies, const MotionState& state, const SleepSettings& settings, double time_step,
                 const Executor& executor) {
     const double threshold = settings.sleep_threshold * settings.sleep_threshold;
@@ -54,14 +87,9 @@ void fallAsleep(const BodyState& bodies, const MotionState& state, const SleepSe
                 motion = std::min(motion, limit);
                 continue;
             }
-            const Vec3 dv = state.constant_force[i] * (bodies.mass_inv[i] * time_step);
-            const Vec3 dw = bodies.inertiaInv_W[i] * state.constant_torque[i] * time_step;
-            const double gained = squaredMotion(dv, dw, state.r_max[i]);
-            if (gained > 0 && gained <= threshold) continue;
-            bodies.v[i].setZero();
-            bodies.w[i].setZero();
-            motion = threshold;
-            bodies.asleep[i] = 1;
+            if (!state.together.empty() && state.together[i] != 0) continue;
+            if (isWeaklyPushed(bodies, state, i, threshold, time_step)) continue;
+            putToSleep(bodies, state, i, threshold);
         }
     });
 }

@@ -32,10 +32,11 @@ void wakeUnsupported(const BodyState& bodies, std::span<const std::int32_t> befo
 
 /// What falling asleep reads and writes besides the response's view of the bodies. One entry per slot.
 struct MotionState {
-    std::span<double> motion;               ///< rwa [m²/s²]
-    std::span<const double> r_max;          ///< [m]
-    std::span<const Vec3> constant_force;   ///< [N]
-    std::span<const Vec3> constant_torque;  ///< [N·m]
+    std::span<double> motion;                  ///< rwa [m²/s²]
+    std::span<const double> r_max;             ///< [m]
+    std::span<const Vec3> constant_force;      ///< [N]
+    std::span<const Vec3> constant_torque;     ///< [N·m]
+    std::span<const std::uint8_t> together{};  ///< 1 = sleeps only with others; empty = none does
 };
 
 /// The value that a new or moved body's averaged motion begins with: the cap, so that rest must be proven first.
@@ -45,5 +46,9 @@ double initialMotion(const SleepSettings& settings);
 /// (3.2.5) holds for every lasting force. @param time_step [s]
 void fallAsleep(const BodyState& bodies, const MotionState& motion, const SleepSettings& settings, double time_step,
                 const Executor& executor);
+
+/// Puts bodies that sleep only with each other to sleep if all of them would. @pre after fallAsleep()
+void fallAsleepTogether(const BodyState& bodies, const MotionState& motion, const SleepSettings& settings,
+                        double time_step, std::span<const BodyIndex> group);
 
 }  // namespace cairn

@@ -70,6 +70,12 @@ void collidePair(const BodyStorage& bodies, const MaterialTable& materials, cons
                     margin, manifold, add);
 }
 
+/// Whether joints keep two bodies from touching. @param excluded sorted
+bool isExcluded(std::span<const BodyPair> excluded, const BodyPair& pair) {
+    const auto before = [](const BodyPair& x, const BodyPair& y) { return x.a < y.a || (x.a == y.a && x.b < y.b); };
+    return !excluded.empty() && std::binary_search(excluded.begin(), excluded.end(), pair, before);
+}
+
 }  // namespace
 
 void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, BroadPhase& broad_phase, double margin,
@@ -85,6 +91,7 @@ void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, B
             Manifold manifold;
             auto& contacts = data.thread_contacts[static_cast<std::size_t>(thread)];
             for (std::size_t i = begin; i < end; ++i) {
+                if (isExcluded(data.excluded, data.pairs[i])) continue;
                 collidePair(bodies, materials, data.pairs[i], margin, manifold, contacts);
             }
         },

@@ -101,6 +101,13 @@ void collectEvents(WorldState& world) {
     for (std::size_t i = log.faults_before; i < world.faults.size(); ++i) {
         log.events.push_back({.kind = EventKind::frozen, .a = world.faults[i].body});
     }
+    for (const BrokenJoint& broken : world.data.broken) {
+        log.events.push_back({.kind = EventKind::joint_broke,
+                              .a = broken.a,
+                              .b = broken.b,
+                              .impulse = broken.impulse,
+                              .joint = broken.joint});
+    }
 }
 
 }  // namespace cairn

@@ -121,6 +121,30 @@ void springFields(Stream& stream, AnySpring& spring) {
     field(stream, spring.rest_length);
 }
 
+template <class Stream, class AnyJoint>
+void jointFields(Stream& stream, AnyJoint& joint) {
+    field(stream, joint.present);
+    field(stream, joint.generation);
+    field(stream, joint.kind);
+    field(stream, joint.a);
+    field(stream, joint.b);
+    field(stream, joint.anchor_a);
+    field(stream, joint.anchor_b);
+    field(stream, joint.axis_a);
+    field(stream, joint.axis_b);
+    field(stream, joint.rest);
+    field(stream, joint.length);
+    field(stream, joint.lower);
+    field(stream, joint.upper);
+    field(stream, joint.motor_speed);
+    field(stream, joint.motor_limit);
+    field(stream, joint.break_force);
+    field(stream, joint.break_torque);
+    field(stream, joint.collide);
+    field(stream, joint.impulse);
+    field(stream, joint.angular_impulse);
+}
+
 /// What World::contacts() shows and removeBody() needs; the rest of a contact is of use within a step only.
 template <class Stream, class AnyContact>
 void contactFields(Stream& stream, AnyContact& contact) {
@@ -169,6 +193,19 @@ void statisticsFields(Stream& stream, AnyStatistics& statistics) {
     field(stream, statistics.mean_overlap);
 }
 
+/// Since version 3.
+template <class AnyEvent>
+void eventJoint(ByteWriter& out, const AnyEvent& event) {
+    out.put(event.joint.index);
+    out.put(event.joint.generation);
+}
+template <class AnyEvent>
+void eventJoint(ByteReader& in, AnyEvent& event) {
+    if (in.version() < 3) return;
+    event.joint.index = in.get<std::uint32_t>();
+    event.joint.generation = in.get<std::uint32_t>();
+}
+
 template <class Stream, class AnyEvent>
 void eventFields(Stream& stream, AnyEvent& event) {
     field(stream, event.kind);
@@ -182,6 +219,7 @@ void eventFields(Stream& stream, AnyEvent& event) {
     field(stream, event.normal);
     field(stream, event.distance);
     field(stream, event.impulse);
+    eventJoint(stream, event);
 }
 
 }  // namespace cairn

@@ -186,6 +186,27 @@ void loadSprings(ByteReader& in, const BodyStorage& bodies, std::vector<Spring>&
     }
 }
 
+/// Whether addJoint() could have made it, or a setter changed it so.
+bool isSound(const Joint& joint, const BodyStorage& bodies) {
+    const auto exists = [&](BodyIndex i) { return i < bodies.slots() && bodies.kind[i] != BodyKind::hole; };
+    const auto isUnit = [](const auto& v) { return std::abs(v.squaredNorm() - 1) < 1e-6; };
+    const bool known = joint.kind <= JointKind::fixed && exists(joint.a) && joint.a != joint.b &&
+                       (joint.b == Joint::world || exists(joint.b));
+    const bool placed = joint.anchor_a.allFinite() && joint.anchor_b.allFinite() && isUnit(joint.axis_a) &&
+                        isUnit(joint.axis_b) && isUnit(joint.rest.coeffs());
+    return known && placed && isFiniteAndNotNegative(joint.length) && joint.lower <= joint.upper &&
+           std::isfinite(joint.motor_speed) && isFiniteAndNotNegative(joint.motor_limit) && joint.break_force > 0 &&
+           joint.break_torque > 0;
+}
+
+void loadJoints(ByteReader& in, const BodyStorage& bodies, std::vector<Joint>& joints) {
+    for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
+        Joint& joint = joints.emplace_back();
+        jointFields(in, joint);
+        if (joint.present && !isSound(joint, bodies)) in.refuse("a joint that no world has");
+    }
+}
+
 /// Offsets that begin at 0, never fall and end at the number of entries.
 bool areOffsets(const std::vector<std::uint32_t>& begin, std::size_t entries) {
     if (begin.empty()) return entries == 0;
@@ -257,7 +278,7 @@ void loadEvents(ByteReader& in, EventLog& log) {
     for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
         Event& event = log.events.emplace_back();
         eventFields(in, event);
-        if (event.kind > EventKind::frozen || event.reason > WakeReason::floating) in.refuse("an unknown event");
+        if (event.kind > EventKind::joint_broke || event.reason > WakeReason::floating) in.refuse("an unknown event");
     }
 }
 
@@ -281,6 +302,7 @@ void saveWorld(const WorldState& world, ByteWriter& out) {
     worldFields(out, world);
     saveBodies(world.bodies, out);
     saveList(out, world.springs, [&](const Spring& spring) { springFields(out, spring); });
+    saveList(out, world.joints, [&](const Joint& joint) { jointFields(out, joint); });
     out.putArray(std::span(world.data.generation));
     saveList(out, world.data.contacts, [&](const Contact& contact) { contactFields(out, contact); });
     batchArrays(out, world.data.batches);
@@ -298,6 +320,7 @@ std::unique_ptr<WorldState> loadWorld(ByteReader& in) {
     worldFields(in, *world);
     loadBodies(in, world->materials.all().size(), world->bodies);
     loadSprings(in, world->bodies, world->springs);
+    if (in.version() >= 3) loadJoints(in, world->bodies, world->joints);
     loadContacts(in, world->data);
     loadMemory(in, world->bodies.slots(), world->memory);
     statisticsFields(in, world->statistics);

@@ -5,6 +5,7 @@
 #include "world/checks.h"
 #include "world/detection.h"
 #include "world/events.h"
+#include "world/joints.h"
 #include "world/quarantine.h"
 #include "world/world_state.h"
 
@@ -39,7 +40,7 @@ void forBatches(const StepData& data, const Executor& executor, const Work& work
 
 void buildBatchesStage(WorldState& world) {
     StepData& data = world.data;
-    buildBatches(world.bodies.kind, data.contacts, data.batch_scratch, data.batches);
+    buildBatches(world.bodies.kind, data.contacts, data.batch_scratch, data.batches, world.joints);
     listContacts(world.bodies.kind, data.contacts, data.contacts_of);
     data.large_batches =
         scheduleBatches(data.batches, static_cast<std::size_t>(world.settings.parallel.large_batch), data.schedule);
@@ -71,10 +72,12 @@ void velocityStage(WorldState& world) {
     const Vec3 acceleration = world.gravity + world.global_acceleration;
     data.supports.resize(world.bodies.slots());
     countSupports(world.bodies.kind, data.contacts, data.contacts_of, acceleration, world.executor, data.supports);
+    if (!acceleration.isZero(0)) countJointSupports(world, data.supports);
     // Without a global acceleration no direction is "down": sleeping bodies then stay asleep until something else
     // happens to them.
     if (!acceleration.isZero(0)) {
         wakeUnsupported(world.bodies.state(), world.bodies.supports, data.supports, world.executor);
+        wakeJointed(world);
     }
     std::swap(world.bodies.supports, data.supports);
     const bool exact = world.settings.integration.exact_flight;
@@ -95,19 +98,21 @@ void resolveStage(WorldState& world) {
     }
     const bool remembers = world.settings.resolution.resolution == ResolutionKind::accelerated_sweeps;
     if (remembers) world.memory.recall(world.bodies, data.contacts, world.executor);
+    buildJointBlocks(world);
     data.resolution_counts.assign(world.resolutions.size(), {});
     forBatches(data, world.executor, [&](std::uint32_t batch, int thread) {
         const auto t = static_cast<std::size_t>(thread);
         const ResolutionCounts counts =
-            world.resolutions[t]->resolve(data.batches[batch], data.contacts, bodies, world.settings.resolution);
+            world.resolutions[t]->resolve(batchOf(world, batch), data.contacts, bodies, world.settings.resolution);
         data.resolution_counts[t].global_iterations += counts.global_iterations;
         data.resolution_counts[t].shock_iterations += counts.shock_iterations;
         data.resolution_counts[t].shock_batches += counts.shock_batches;
     });
     if (remembers) world.memory.store(world.bodies, data.contacts, world.executor);
+    finishJoints(world);
     quarantine(world);
     if (world.settings.integration.exact_flight) {
-        completeSmoothMotion(world.bodies, data.before, world.settings.timeStep(), world.executor);
+        completeSmoothMotion(world.bodies, data.before, data.jointed, world.settings.timeStep(), world.executor);
     }
 }
 
@@ -116,8 +121,9 @@ void sleepStage(WorldState& world) {
     const bool weightless = (world.gravity + world.global_acceleration).isZero(0);
     if (!world.settings.sleep.sleeping || weightless) return;
     BodyStorage& b = world.bodies;
-    fallAsleep(b.state(), {b.motion, b.r_max, b.constant_force, b.constant_torque}, world.settings.sleep,
-               world.settings.timeStep(), world.executor);
+    fallAsleep(b.state(), {b.motion, b.r_max, b.constant_force, b.constant_torque, world.data.jointed},
+               world.settings.sleep, world.settings.timeStep(), world.executor);
+    letJointedSleep(world);
 }
 
 void outputStage(WorldState& world) {
@@ -138,9 +144,15 @@ void stepWorld(WorldState& world) {
         // What user code did between the steps may have overflowed.
         quarantine(world);
         wakeSpringEnds(world.springs, world.bodies);
+        prepareJoints(world);
     });
     timed(statistics, Stage::positions, [&] {
+        const JointFlight::Motion motion{world.settings.integration, world.settings.gravity_damping,
+                                         world.gravity + world.global_acceleration, world.settings.timeStep(),
+                                         world.data.contacts};
+        world.joint_flight.begin(world.joints, world.data.joint_groups, world.bodies, motion);
         advancePositions(world.bodies, world.settings.integration, world.settings.timeStep(), world.executor);
+        world.joint_flight.finish(world.joints, world.data.joint_groups, world.bodies, motion);
     });
     timed(statistics, Stage::detection, [&] {
         detectContacts(world.bodies, world.materials, *world.broad_phase, world.settings.detection.contact_margin,
@@ -152,7 +164,7 @@ void stepWorld(WorldState& world) {
     timed(statistics, Stage::velocities, [&] { velocityStage(world); });
     const double energy = checked ? kineticEnergyOf(world.bodies) : 0;
     timed(statistics, Stage::resolution, [&] { resolveStage(world); });
-    if (world.checks == Checks::on) checkEnergy(world, energy);
+    if (world.checks == Checks::on && !hasMotors(world)) checkEnergy(world, energy);
     timed(statistics, Stage::sleeping, [&] { sleepStage(world); });
     timed(statistics, Stage::output, [&] { outputStage(world); });
     if (checked) checkState(world);

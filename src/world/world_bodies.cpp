@@ -156,6 +156,13 @@ void World::removeBody(BodyId id) {
         spring.present = false;
         ++spring.generation;
     }
+    for (Joint& joint : w.joints) {
+        if (!joint.present || (joint.a != i && joint.b != i)) continue;
+        const BodyIndex other = joint.a == i ? joint.b : joint.a;
+        if (other != Joint::world && !bodies.isFixed(other)) bodies.wake(other, WakeReason::changed);
+        joint.present = false;
+        ++joint.generation;
+    }
     w.memory.forget(i);
     w.bodies.release(i);
 }

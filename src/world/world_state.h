@@ -14,26 +14,42 @@
 #include "correction/correction.h"
 #include "geometry/geometry.h"
 #include "integration/integration.h"
+#include "integration/joint_flight.h"
 #include "integration/springs.h"
+#include "joints/joint_groups.h"
 #include "parallel/executor.h"
 #include "persistence/contact_memory.h"
 #include "resolution/resolution.h"
 
 namespace cairn {
 
+/// A joint that broke in a step.
+struct BrokenJoint {
+    JointId joint;
+    BodyId a, b;
+    Vec3 impulse;  ///< on A in the step [N·s, W]
+};
+
 /// The arrays that one stage leaves to the next; nothing else travels between stages. Named with their producer.
 struct StepData {
     std::vector<Bounds> bounds;                         ///< detection: [slots] grown by the contact margin [m, W]
     std::vector<BodyPair> pairs;                        ///< detection: near pairs, sorted
     std::vector<std::vector<Contact>> thread_contacts;  ///< detection: [threads], joined into contacts
-    std::vector<Contact> contacts;        ///< detection, changed by correction and resolution: sorted by (a, b)
-    ContactsOfBodies contacts_of;         ///< batches: [slots] contact indices
-    Batches batches;                      ///< batches: groups in canonical order
-    BatchScratch batch_scratch;           ///< batches: kept memory
-    std::vector<std::uint32_t> schedule;  ///< batches: order of work, large ones first
-    std::size_t large_batches = 0;        ///< batches: how many of the schedule are large
-    VelocitiesBefore before;              ///< velocities: [slots], with exact_flight only
-    std::vector<std::int32_t> supports;   ///< velocities: [slots] contacts in the direction of gravity
+    std::vector<Contact> contacts;            ///< detection, changed by correction and resolution: sorted by (a, b)
+    ContactsOfBodies contacts_of;             ///< batches: [slots] contact indices
+    Batches batches;                          ///< batches: groups in canonical order
+    BatchScratch batch_scratch;               ///< batches: kept memory
+    std::vector<std::uint32_t> schedule;      ///< batches: order of work, large ones first
+    std::size_t large_batches = 0;            ///< batches: how many of the schedule are large
+    VelocitiesBefore before;                  ///< velocities: [slots], with exact_flight only
+    JointGroups joint_groups;                 ///< events: joints connected by bodies that can move
+    std::vector<std::uint8_t> jointed;        ///< events: [slots] 1 = has a joint; empty without joints
+    std::vector<BodyPair> excluded;           ///< events: pairs that joints keep from touching, sorted
+    std::vector<JointBlock> joint_blocks;     ///< resolution: batch after batch, in it group after group
+    std::vector<std::uint32_t> joint_begin;   ///< resolution: [batches + 1] offsets into joint_blocks
+    std::vector<std::uint32_t> joint_cursor;  ///< resolution: kept memory
+    std::vector<BrokenJoint> broken;          ///< resolution: by slot
+    std::vector<std::int32_t> supports;       ///< velocities: [slots] contacts in the direction of gravity
     std::vector<CorrectionCounts> correction_counts;  ///< correction: [threads]
     std::vector<ResolutionCounts> resolution_counts;  ///< resolution: [threads]
     std::vector<std::uint32_t> generation;  ///< output: [slots] generations of the bodies that the contacts name
@@ -82,6 +98,9 @@ struct WorldState {
     MaterialTable materials;
     BodyStorage bodies;
     std::vector<Spring> springs;
+    std::vector<Joint> joints;
+    JointGrouping joint_grouping;
+    JointFlight joint_flight;
     Vec3 gravity = Vec3::Zero();              ///< [m/s², W]
     Vec3 global_acceleration = Vec3::Zero();  ///< [m/s², W]
 

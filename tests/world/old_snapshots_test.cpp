@@ -91,9 +91,11 @@ World worldOfEverything() {
     add(Compound{{{Box{Vec3(0.2, 0.2, 0.1)}, {}, {}, {}},
                   {Sphere{0.05}, {Vec3(0, 0, 0.1), Quat::Identity()}, 0.3, {}}}},
         oak, Vec3(4, 0, 0.05));
+    const BodyId hinged = add(Box{Vec3(0.1, 0.1, 0.5)}, oak, Vec3(7.2, 0, 2));
     const BodyId hole = add(Sphere{0.1}, oak, Vec3(5, 0, 1));
     const BodyId broken = add(Sphere{0.1}, oak, Vec3(6, 0, 1));
     world.addSpring({.a = ball, .b = box, .stiffness = 5, .damping = 0.1, .rest_length = 1});
+    world.addJoint({.kind = JointKind::hinge, .a = hinged, .anchor = Vec3(7, 0, 2), .axis = Vec3::UnitY()});
     world.setConstantForce(box, Vec3(0.5, 0, 0));
     for (int i = 0; i < 40; ++i) world.step();
     world.removeBody(hole);

@@ -1,0 +1,273 @@
+#include "integration/joint_flight.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/rotation.h"
+
+namespace cairn {
+
+namespace {
+
+/// Errors of a flight that are left alone [m or rad]: far below any use, above rounding.
+constexpr double good_enough = 1e-12;
+
+/// Errors of the positions that are left to the next flight [m or rad].
+constexpr double remains = 1e-10;
+
+/// Errors at the start that are rounding of earlier steps; they go away with those of the flight.
+constexpr double leftover = 1e-9;
+
+constexpr int most_iterations = 12;
+
+/// Part of a body's weight that a contact bears at least if it is one on which the body rests.
+constexpr double resting_part = 1e-3;
+
+/// Errors beyond this [m or rad] are taken back in parts, so that nothing is thrown into its neighbours.
+constexpr double large_error = 1e-3;
+constexpr double part_of_large = 0.2;
+
+bool isAwake(const BodyStorage& bodies, std::span<const BodyIndex> group) {
+    return std::ranges::any_of(group, [&](BodyIndex i) { return bodies.asleep[i] == 0; });
+}
+
+double largestOf(std::span<const double> values) {
+    double largest = 0;
+    for (const double value : values) largest = std::max(largest, std::abs(value));
+    return largest;
+}
+
+/// Errors of all rows, block after block.
+void collectErrors(std::span<const JointBlock> blocks, std::vector<double>& errors) {
+    errors.clear();
+    for (const JointBlock& block : blocks) {
+        errors.insert(errors.end(), block.error.begin(), block.error.begin() + block.size);
+    }
+}
+
+/// What a distance to a bound must at least be after a flight: what it was, if it was beyond before.
+double allowed(double at_start) {
+    return at_start < -leftover ? at_start : 0;
+}
+
+/// How far ropes and limits are passed.
+double largestBeyond(std::span<const JointBlock> blocks) {
+    double largest = 0;
+    for (const JointBlock& block : blocks) {
+        for (std::uint32_t i = 0; i < block.bounds; ++i) {
+            if (block.bound[i].is_motor) continue;
+            largest = std::max({largest, -block.bound[i].to_upper, block.bound[i].to_lower});
+        }
+    }
+    return largest;
+}
+
+void evaluateAll(std::span<const std::uint32_t> group, std::span<const Joint> joints, const BodyStorage& bodies,
+                 double time_step, std::span<JointBlock> blocks) {
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        const Joint& joint = joints[group[i]];
+        blocks[i].joint = group[i];
+        evaluate(joint, poseOf(bodies, joint.a), poseOf(bodies, joint.b), time_step, blocks[i]);
+    }
+}
+
+}  // namespace
+
+bool JointFlight::isResting(const Contact& contact, const BodyStorage& bodies, const Motion& motion) {
+    // A body of the last step may be gone.
+    if (contact.b >= bodies.slots()) return false;
+    const double gained = motion.acceleration.norm() * motion.time_step;
+    const double largest_inverse = std::max(bodies.mass_inv[contact.a], bodies.mass_inv[contact.b]);
+    if (!(contact.impulse.norm() * largest_inverse > resting_part * gained)) return false;
+    const auto speed = [&](BodyIndex i) -> Vec3 {
+        return bodies.v[i] + bodies.w[i].cross(contact.point - bodies.position[i]);
+    };
+    const double parting = contact.normal.dot(speed(contact.a) - speed(contact.b));
+    return parting <= gained;
+}
+
+void JointFlight::noteKicks(const JointGroups& groups, std::size_t group, const BodyStorage& bodies,
+                            const Motion& motion) {
+    const auto pushed = [&](BodyIndex i) { return pushed_[i] != 0; };
+    if (!motion.integration.exact_flight || std::ranges::any_of(groups.bodiesOf(group), pushed)) return;
+    for (std::uint32_t k = groups.body_begin[group]; k < groups.body_begin[group + 1]; ++k) {
+        const Vec3 acceleration = accelerationOf(bodies, groups.bodies[k], motion.acceleration, motion.gravity_damping);
+        start_[k].half_kick = 0.5 * motion.time_step * acceleration;
+    }
+}
+
+void JointFlight::begin(std::span<Joint> joints, const JointGroups& groups, const BodyStorage& bodies,
+                        const Motion& motion) {
+    for (Joint& joint : joints) joint.impulse = joint.angular_impulse = Vec3::Zero();
+    if (groups.size() == 0) return;
+    pushed_.assign(bodies.slots(), 0);
+    for (const Contact& contact : motion.contacts) {
+        if (isResting(contact, bodies, motion)) pushed_[contact.a] = pushed_[contact.b] = 1;
+    }
+    start_.resize(groups.bodies.size());
+    blocks_.resize(groups.joints.size());
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        if (!isAwake(bodies, groups.bodiesOf(g))) continue;
+        for (std::uint32_t k = groups.body_begin[g]; k < groups.body_begin[g + 1]; ++k) {
+            const BodyIndex i = groups.bodies[k];
+            start_[k] = {{bodies.position[i], bodies.orientation[i]}, {bodies.v[i], bodies.w[i]}, Vec3::Zero()};
+        }
+        noteKicks(groups, g, bodies, motion);
+        const std::span<const std::uint32_t> of_group = groups.jointsOf(g);
+        evaluateAll(of_group, joints, bodies, motion.time_step,
+                    std::span(blocks_).subspan(groups.joint_begin[g], of_group.size()));
+    }
+}
+
+void JointFlight::finish(std::span<Joint> joints, const JointGroups& groups, BodyStorage& bodies,
+                         const Motion& motion) {
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        if (!isAwake(bodies, groups.bodiesOf(g))) continue;
+        const std::span<const BodyIndex> of_group = groups.bodiesOf(g);
+        fly({groups.jointsOf(g), of_group, std::span(start_).subspan(groups.body_begin[g], of_group.size()),
+             std::span(blocks_).subspan(groups.joint_begin[g], groups.jointsOf(g).size()), motion.time_step},
+            joints, bodies, motion.integration);
+    }
+}
+
+void JointFlight::setMasses(const Flight& flight, const BodyStorage& bodies) {
+    response_.resize(flight.bodies.size());
+    for (std::size_t k = 0; k < flight.bodies.size(); ++k) {
+        const BodyIndex i = flight.bodies[k];
+        response_[k] = {bodies.mass_inv[i], toWorldInertia(bodies.inertiaInv_B[i], flight.start[k].pose.orientation)};
+    }
+}
+
+void JointFlight::fly(const Flight& flight, std::span<Joint> joints, BodyStorage& bodies,
+                      const IntegrationSettings& settings) {
+    setMasses(flight, bodies);
+    system_.begin(flight.bodies, flight.blocks);
+    system_.factorise(response_);
+    velocity_.resize(flight.bodies.size());
+    for (std::size_t k = 0; k < velocity_.size(); ++k) {
+        velocity_[k] = flight.start[k].velocity;
+        velocity_[k].v += flight.start[k].half_kick;
+    }
+    moveAgain(flight, bodies, settings);
+    collectErrors(flight.blocks, start_error_);
+    if (!(largestOf(start_error_) > leftover)) std::fill(start_error_.begin(), start_error_.end(), 0.0);
+    received_.assign(system_.rows(), 0);
+    now_.resize(flight.joints.size());
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+        evaluateAll(flight.joints, joints, bodies, flight.time_step, now_);
+        collectErrors(now_, impulses_);
+        for (std::size_t i = 0; i < impulses_.size(); ++i) impulses_[i] -= start_error_[i];
+        const double error = largestOf(impulses_);
+        if (!std::isfinite(error)) return;
+        for (double& impulse : impulses_) impulse /= -flight.time_step;
+        system_.solve(impulses_);
+        if (error > good_enough) {
+            system_.addImpulses(impulses_, velocity_);
+            for (std::size_t i = 0; i < impulses_.size(); ++i) received_[i] += impulses_[i];
+        }
+        const double beyond = keepBounds(flight);
+        if (!(error > good_enough || beyond > good_enough)) break;
+        moveAgain(flight, bodies, settings);
+    }
+    std::size_t row = 0;
+    for (JointBlock& block : flight.blocks) {
+        for (std::uint32_t i = 0; i < block.size; ++i) block.impulse[i] = received_[row++];
+        reportImpulses(block, joints[block.joint]);
+    }
+    // The velocity stage gives the whole kick.
+    for (std::size_t k = 0; k < flight.bodies.size(); ++k) bodies.v[flight.bodies[k]] -= flight.start[k].half_kick;
+    moveBack(flight, joints, bodies);
+}
+
+void JointFlight::moveAgain(const Flight& flight, BodyStorage& bodies, const IntegrationSettings& settings) const {
+    for (std::size_t k = 0; k < flight.bodies.size(); ++k) {
+        const BodyIndex i = flight.bodies[k];
+        bodies.position[i] = flight.start[k].pose.position;
+        bodies.orientation[i] = flight.start[k].pose.orientation;
+        bodies.v[i] = velocity_[k].v;
+        bodies.w[i] = velocity_[k].w;
+        bodies.inertiaInv_W[i] = response_[k].inertia_inv;
+        advancePosition(bodies, i, settings, flight.time_step);
+    }
+}
+
+/// Pushes back what passed a rope or a limit in flight; what was beyond it before is left to moveBack().
+/// @return the largest distance beyond [m or rad]
+double JointFlight::keepBounds(const Flight& flight) {
+    double largest = 0;
+    for (std::size_t k = 0; k < flight.blocks.size(); ++k) {
+        JointBlock& block = flight.blocks[k];
+        for (std::uint32_t i = 0; i < block.bounds; ++i) {
+            BoundRow& bound = block.bound[i];
+            if (bound.is_motor) continue;
+            const double above = allowed(bound.to_upper) - now_[k].bound[i].to_upper;
+            const double below = allowed(-bound.to_lower) + now_[k].bound[i].to_lower;
+            const bool at_upper = bound.impulse < 0 || (bound.impulse == 0 && above > good_enough);
+            const bool at_lower = bound.impulse > 0 || (bound.impulse == 0 && below > good_enough);
+            if (!at_upper && !at_lower) continue;
+            const double per_impulse = system_.respondAlong(block, bound.row);
+            if (!(per_impulse > 0)) continue;
+            const double step = (at_upper ? -above : below) / (flight.time_step * per_impulse);
+            const double sum = bound.impulse + step;
+            const double impulse = at_upper ? std::min(sum, 0.0) : std::max(sum, 0.0);
+            addResponse(impulse - bound.impulse);
+            bound.impulse = impulse;
+            largest = std::max(largest, at_upper ? above : below);
+        }
+    }
+    return largest;
+}
+
+void JointFlight::addResponse(double impulse) {
+    for (std::size_t k = 0; k < velocity_.size(); ++k) {
+        velocity_[k].v += impulse * system_.changes()[k].v;
+        velocity_[k].w += impulse * system_.changes()[k].w;
+    }
+    for (std::size_t i = 0; i < received_.size(); ++i) received_[i] += impulse * system_.reactions()[i];
+}
+
+/// Newton's method on the positions alone.
+void JointFlight::moveBack(const Flight& flight, std::span<const Joint> joints, BodyStorage& bodies) {
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+        evaluateAll(flight.joints, joints, bodies, flight.time_step, now_);
+        collectErrors(now_, impulses_);
+        const double error = std::max(largestOf(impulses_), largestBeyond(now_));
+        if (!(error > remains) || !std::isfinite(error)) return;
+        const double part = error > large_error ? std::max(part_of_large, large_error / error) : 1;
+        for (std::size_t k = 0; k < flight.bodies.size(); ++k) {
+            response_[k].inertia_inv = bodies.inertiaInv_W[flight.bodies[k]];
+            velocity_[k] = {};
+        }
+        system_.begin(flight.bodies, now_);
+        system_.factorise(response_);
+        for (double& impulse : impulses_) impulse *= -part;
+        system_.solve(impulses_);
+        system_.addImpulses(impulses_, velocity_);
+        received_.assign(system_.rows(), 0);
+        for (JointBlock& block : now_) {
+            for (std::uint32_t i = 0; i < block.bounds; ++i) pushBack(block, block.bound[i], part);
+        }
+        displace(flight, bodies);
+        if (error > large_error) return;
+    }
+}
+
+/// Moves a rope or a limit that is passed back to its end. @param part of the way
+void JointFlight::pushBack(const JointBlock& block, const BoundRow& bound, double part) {
+    if (bound.is_motor || (bound.to_upper >= 0 && bound.to_lower <= 0)) return;
+    const double moved = system_.rateOf(block, bound.row, velocity_);
+    const double wanted = part * (bound.to_upper < 0 ? bound.to_upper : bound.to_lower);
+    const double per_impulse = system_.respondAlong(block, bound.row);
+    if (per_impulse > 0) addResponse((wanted - moved) / per_impulse);
+}
+
+void JointFlight::displace(const Flight& flight, BodyStorage& bodies) const {
+    for (std::size_t k = 0; k < flight.bodies.size(); ++k) {
+        const BodyIndex i = flight.bodies[k];
+        bodies.position[i] += velocity_[k].v;
+        bodies.orientation[i] = (fromRotationVector(velocity_[k].w) * bodies.orientation[i]).normalized();
+        bodies.inertiaInv_W[i] = toWorldInertia(bodies.inertiaInv_B[i], bodies.orientation[i]);
+    }
+}
+
+}  // namespace cairn

@@ -1,0 +1,242 @@
+#include "resolution/batch_joints.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "resolution/impulse.h"
+
+namespace cairn {
+
+namespace {
+
+/// Most passes over the bounds of a batch at a time.
+constexpr int most_passes = 50;
+
+Twist twistOf(const LocalBody& body) {
+    return {body.v, body.w};
+}
+
+Twist directChange(const LocalBody& body, const Vec3& r, const Vec3& impulse) {
+    const VelocityChange change = velocityChange(body, r, impulse);
+    return {change.v, change.w};
+}
+
+void add(const Twist& change, LocalBody& body) {
+    apply({change.v, change.w}, body);
+}
+
+}  // namespace
+
+void BatchJointGroup::gather(std::span<JointBlock> blocks, std::vector<LocalBody>& bodies,
+                             std::span<const std::uint32_t> local_of_slot) {
+    members_.clear();
+    for (const JointBlock& block : blocks) {
+        for (const BodyIndex body : {block.a, block.b}) {
+            // Bodies that cannot move are not among the batch's yet.
+            if (body != Joint::world && local_of_slot[body] < bodies.size()) members_.push_back(body);
+        }
+    }
+    std::sort(members_.begin(), members_.end());
+    members_.erase(std::unique(members_.begin(), members_.end()), members_.end());
+    local.clear();
+    for (const BodyIndex body : members_) local.push_back(local_of_slot[body]);
+    system.begin(members_, blocks);
+    received_.assign(system.rows(), 0);
+    factorise(bodies);
+    project(bodies);
+    projected_ = received_;
+}
+
+void BatchJointGroup::factorise(std::span<const LocalBody> bodies) {
+    response_.resize(local.size());
+    for (std::size_t i = 0; i < local.size(); ++i) {
+        response_[i] = {bodies[local[i]].mass_inv, bodies[local[i]].inertia_inv.toMatrix()};
+    }
+    system.factorise(response_);
+}
+
+void BatchJointGroup::project(std::span<LocalBody> bodies) {
+    velocity_.resize(local.size());
+    for (std::size_t i = 0; i < local.size(); ++i) velocity_[i] = twistOf(bodies[local[i]]);
+    impulses_.resize(system.rows());
+    system.rates(velocity_, impulses_);
+    // At rest nothing is struck, so that what sleeps sleeps on; what is not finite must not spread.
+    const auto still = [](double rate) { return rate == 0; };
+    const auto finite = [](double rate) { return std::isfinite(rate); };
+    if (std::ranges::all_of(impulses_, still) || !std::ranges::all_of(impulses_, finite)) return;
+    for (double& impulse : impulses_) impulse = -impulse;
+    system.solve(impulses_);
+    system.addImpulses(impulses_, velocity_);
+    for (std::size_t i = 0; i < impulses_.size(); ++i) received_[i] += impulses_[i];
+    for (std::size_t i = 0; i < local.size(); ++i) {
+        LocalBody& body = bodies[local[i]];
+        body.v = velocity_[i].v;
+        body.w = velocity_[i].w;
+        body.struck = 1;
+    }
+}
+
+void BatchJointGroup::applyResponse(std::span<LocalBody> bodies) {
+    for (std::size_t i = 0; i < local.size(); ++i) add(system.changes()[i], bodies[local[i]]);
+    for (std::size_t i = 0; i < received_.size(); ++i) received_[i] += system.reactions()[i];
+}
+
+double BatchJointGroup::rateOf(const JointBlock& block, const JointRow& row, std::span<const LocalBody> bodies) {
+    velocity_.resize(local.size());
+    for (const BodyIndex body : {block.a, block.b}) {
+        const std::uint32_t member = system.memberOf(body);
+        if (member != JointSystem::none) velocity_[member] = twistOf(bodies[local[member]]);
+    }
+    return system.rateOf(block, row, velocity_);
+}
+
+/// The impulse is what brings the rate, taken without the impulse so far, into its bounds. @return change of the rate
+double BatchJointGroup::resolveBound(const JointBlock& block, BoundRow& bound, std::span<LocalBody> bodies) {
+    const double rate = rateOf(block, bound.row, bodies);
+    const bool is_free = bound.impulse == 0 && rate >= bound.lowest && rate <= bound.highest;
+    if (is_free || !std::isfinite(rate)) return 0;
+    const double per_impulse = system.respondAlong(block, bound.row);
+    if (!(per_impulse > 0)) return 0;
+    const double without = rate - per_impulse * bound.impulse;
+    const double wanted = std::clamp(without, bound.lowest, bound.highest);
+    const double impulse = std::clamp((wanted - without) / per_impulse, -bound.strongest, bound.strongest);
+    const double change = impulse - bound.impulse;
+    if (change == 0) return 0;
+    bound.impulse = impulse;
+    for (std::size_t i = 0; i < local.size(); ++i) {
+        const Twist& unit = system.changes()[i];
+        add({change * unit.v, change * unit.w}, bodies[local[i]]);
+    }
+    for (std::size_t i = 0; i < received_.size(); ++i) received_[i] += change * system.reactions()[i];
+    return std::abs(change * per_impulse);
+}
+
+double BatchJointGroup::resolveBounds(std::span<LocalBody> bodies) {
+    double largest = 0;
+    for (JointBlock& block : system.blocks()) {
+        for (std::uint32_t i = 0; i < block.bounds; ++i) {
+            largest = std::max(largest, resolveBound(block, block.bound[i], bodies));
+        }
+    }
+    return largest;
+}
+
+void BatchJointGroup::settle(std::span<Twist> direct) {
+    for (const JointBlock& block : system.blocks()) {
+        for (std::uint32_t i = 0; i < block.bounds; ++i) {
+            const BoundRow& bound = block.bound[i];
+            system.addAlong(block, bound.row, bound.impulse, direct);
+        }
+    }
+    system.rates(direct, received_);
+    for (double& rate : received_) rate = -rate;
+    system.solve(received_);
+    for (std::size_t i = 0; i < received_.size(); ++i) received_[i] += projected_[i];
+}
+
+void BatchJointGroup::report() const {
+    std::size_t row = 0;
+    for (JointBlock& block : system.blocks()) {
+        for (std::uint32_t i = 0; i < block.size; ++i) block.impulse[i] = received_[row++];
+    }
+}
+
+void BatchJoints::gather(std::span<JointBlock> blocks, std::vector<LocalBody>& bodies,
+                         std::span<const std::uint32_t> local_of_slot) {
+    count_ = 0;
+    has_bounds_ = false;
+    if (blocks.empty()) return;
+    place_.assign(bodies.size(), Place{});
+    for (std::size_t begin = 0; begin < blocks.size();) {
+        std::size_t end = begin;
+        while (end < blocks.size() && blocks[end].group == blocks[begin].group) {
+            has_bounds_ = has_bounds_ || blocks[end].bounds > 0;
+            ++end;
+        }
+        if (count_ == groups_.size()) groups_.emplace_back();
+        BatchJointGroup& group = groups_[count_];
+        group.gather(blocks.subspan(begin, end - begin), bodies, local_of_slot);
+        for (std::uint32_t i = 0; i < group.local.size(); ++i) {
+            place_[group.local[i]] = {static_cast<std::uint32_t>(count_), i};
+        }
+        ++count_;
+        begin = end;
+    }
+}
+
+void BatchJoints::respond(const ContactFrame& contact, const Vec3& impulse, std::span<const LocalBody> bodies) {
+    const Place a = placeOf(contact.a);
+    const Place b = placeOf(contact.b);
+    direct_a_ = directChange(bodies[contact.a], contact.r_a, impulse);
+    direct_b_ = directChange(bodies[contact.b], contact.r_b, -impulse);
+    if (a.group != none && a.group == b.group) {
+        groups_[a.group].system.respond(a.member, direct_a_, b.member, direct_b_);
+        return;
+    }
+    if (a.group != none) groups_[a.group].system.respond(a.member, direct_a_, JointSystem::none, {});
+    if (b.group != none) groups_[b.group].system.respond(b.member, direct_b_, JointSystem::none, {});
+}
+
+Symmetric3 BatchJoints::collisionMatrix(const ContactFrame& contact, std::span<const LocalBody> bodies) {
+    const Place a = placeOf(contact.a);
+    const Place b = placeOf(contact.b);
+    Mat3 k;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+        respond(contact, contact.basis.col(i), bodies);
+        const Twist& change_a = a.group != none ? groups_[a.group].system.changes()[a.member] : direct_a_;
+        const Twist& change_b = b.group != none ? groups_[b.group].system.changes()[b.member] : direct_b_;
+        const Vec3 change = change_a.v + change_a.w.cross(contact.r_a) - change_b.v - change_b.w.cross(contact.r_b);
+        k.col(i) = contact.basis.transpose() * change;
+    }
+    return Symmetric3::from(0.5 * (k + k.transpose()));
+}
+
+void BatchJoints::push(const ContactFrame& contact, const Vec3& impulse, std::span<LocalBody> bodies) {
+    respond(contact, impulse, bodies);
+    const std::uint32_t group_a = groupOf(contact.a);
+    const std::uint32_t group_b = groupOf(contact.b);
+    if (group_a == none) add(direct_a_, bodies[contact.a]);
+    if (group_b == none) add(direct_b_, bodies[contact.b]);
+    if (group_a != none) groups_[group_a].applyResponse(bodies);
+    if (group_b != none && group_b != group_a) groups_[group_b].applyResponse(bodies);
+}
+
+void BatchJoints::factorise(std::span<const LocalBody> bodies) {
+    for (std::size_t i = 0; i < count_; ++i) groups_[i].factorise(bodies);
+}
+
+bool BatchJoints::resolveBounds(std::span<LocalBody> bodies, double threshold) {
+    if (!has_bounds_) return false;
+    bool changed = false;
+    for (int pass = 0; pass < most_passes; ++pass) {
+        double largest = 0;
+        for (std::size_t i = 0; i < count_; ++i) largest = std::max(largest, groups_[i].resolveBounds(bodies));
+        changed = changed || largest > threshold;
+        if (!(largest > 1e-3 * threshold)) break;
+    }
+    return changed;
+}
+
+void BatchJoints::settle(std::span<const ContactFrame> contacts, std::span<const LocalBody> bodies) {
+    if (count_ == 0) return;
+    settled_.resize(std::max(settled_.size(), count_));
+    for (std::size_t i = 0; i < count_; ++i) settled_[i].assign(groups_[i].local.size(), Twist{});
+    const auto add_direct = [&](std::uint32_t body, const Vec3& r, const Vec3& impulse) {
+        const Place place = placeOf(body);
+        if (place.group == none) return;
+        const Twist change = directChange(bodies[body], r, impulse);
+        settled_[place.group][place.member].v += change.v;
+        settled_[place.group][place.member].w += change.w;
+    };
+    for (const ContactFrame& contact : contacts) {
+        add_direct(contact.a, contact.r_a, contact.impulse);
+        add_direct(contact.b, contact.r_b, -contact.impulse);
+    }
+    for (std::size_t i = 0; i < count_; ++i) groups_[i].settle(settled_[i]);
+}
+
+void BatchJoints::scatter() const {
+    for (std::size_t i = 0; i < count_; ++i) groups_[i].report();
+}
+
+}  // namespace cairn

@@ -1,0 +1,137 @@
+#include "world/joints.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "sleeping/sleeping.h"
+
+namespace cairn {
+
+namespace {
+
+bool areBefore(const BodyPair& x, const BodyPair& y) {
+    return x.a < y.a || (x.a == y.a && x.b < y.b);
+}
+
+/// Pairs that joints keep from touching.
+void listExcluded(const WorldState& world, std::vector<BodyPair>& excluded) {
+    excluded.clear();
+    for (const Joint& joint : world.joints) {
+        if (!joint.present || joint.collide || joint.b == Joint::world) continue;
+        excluded.push_back({std::min(joint.a, joint.b), std::max(joint.a, joint.b)});
+    }
+    std::sort(excluded.begin(), excluded.end(), areBefore);
+}
+
+/// A motor that runs keeps its bodies awake, however slowly it moves them.
+bool isDriven(const WorldState& world, std::size_t group) {
+    return std::ranges::any_of(world.data.joint_groups.jointsOf(group), [&](std::uint32_t j) {
+        return world.joints[j].hasMotor() && world.joints[j].motor_speed != 0;
+    });
+}
+
+void removeBroken(WorldState& world, std::uint32_t slot) {
+    Joint& joint = world.joints[slot];
+    const BodyState bodies = world.bodies.state();
+    const bool has_b = joint.b != Joint::world;
+    world.data.broken.push_back({{slot, joint.generation},
+                                 world.bodies.idOf(joint.a),
+                                 has_b ? world.bodies.idOf(joint.b) : BodyId{},
+                                 joint.impulse});
+    for (const BodyIndex body : {joint.a, joint.b}) {
+        if (isMovable(world.bodies.kind, body)) bodies.wake(body, WakeReason::changed);
+    }
+    joint.present = false;
+    ++joint.generation;
+}
+
+}  // namespace
+
+void prepareJoints(WorldState& world) {
+    StepData& data = world.data;
+    data.broken.clear();
+    world.joint_grouping.build(world.joints, world.bodies.kind, data.joint_groups);
+    listExcluded(world, data.excluded);
+    data.jointed.assign(data.joint_groups.size() > 0 ? world.bodies.slots() : 0, 0);
+    for (const BodyIndex body : data.joint_groups.bodies) data.jointed[body] = 1;
+    wakeJointed(world);
+}
+
+void wakeJointed(WorldState& world) {
+    const JointGroups& groups = world.data.joint_groups;
+    const BodyState bodies = world.bodies.state();
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const std::span<const BodyIndex> group = groups.bodiesOf(g);
+        const bool awake = std::ranges::any_of(group, [&](BodyIndex i) { return bodies.asleep[i] == 0; });
+        if (!awake && !isDriven(world, g)) continue;
+        for (const BodyIndex body : group) bodies.wake(body, WakeReason::changed);
+    }
+}
+
+void buildJointBlocks(WorldState& world) {
+    StepData& data = world.data;
+    const JointGroups& groups = data.joint_groups;
+    data.joint_begin.assign(data.batches.size() + 1, 0);
+    data.joint_blocks.resize(groups.joints.size());
+    if (groups.size() == 0) return;
+    const auto batchOfGroup = [&](std::size_t g) { return data.batch_scratch.batch_of_body[groups.bodiesOf(g)[0]]; };
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        data.joint_begin[batchOfGroup(g)] += static_cast<std::uint32_t>(groups.jointsOf(g).size());
+    }
+    std::exclusive_scan(data.joint_begin.begin(), data.joint_begin.end(), data.joint_begin.begin(), std::uint32_t{0});
+    data.joint_cursor.assign(data.joint_begin.begin(), data.joint_begin.end());
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        for (const std::uint32_t slot : groups.jointsOf(g)) {
+            const Joint& joint = world.joints[slot];
+            JointBlock& block = data.joint_blocks[data.joint_cursor[batchOfGroup(g)]++];
+            block.joint = slot;
+            block.group = static_cast<std::uint32_t>(g);
+            evaluate(joint, poseOf(world.bodies, joint.a), poseOf(world.bodies, joint.b), world.settings.timeStep(),
+                     block);
+        }
+    }
+}
+
+BatchView batchOf(WorldState& world, std::uint32_t batch) {
+    StepData& data = world.data;
+    BatchView view = data.batches[batch];
+    view.joints = std::span(data.joint_blocks)
+                      .subspan(data.joint_begin[batch], data.joint_begin[batch + 1] - data.joint_begin[batch]);
+    return view;
+}
+
+void countJointSupports(const WorldState& world, std::span<std::int32_t> supports) {
+    for (const std::uint32_t slot : world.data.joint_groups.joints) {
+        for (const BodyIndex body : {world.joints[slot].a, world.joints[slot].b}) {
+            if (isMovable(world.bodies.kind, body)) ++supports[body];
+        }
+    }
+}
+
+void letJointedSleep(WorldState& world) {
+    BodyStorage& b = world.bodies;
+    const JointGroups& groups = world.data.joint_groups;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        if (isDriven(world, g)) continue;
+        fallAsleepTogether(b.state(), {b.motion, b.r_max, b.constant_force, b.constant_torque}, world.settings.sleep,
+                           world.settings.timeStep(), groups.bodiesOf(g));
+    }
+}
+
+void finishJoints(WorldState& world) {
+    for (const JointBlock& block : world.data.joint_blocks) reportImpulses(block, world.joints[block.joint]);
+    const double time_step = world.settings.timeStep();
+    for (std::uint32_t slot = 0; slot < world.joints.size(); ++slot) {
+        const Joint& joint = world.joints[slot];
+        if (!joint.present) continue;
+        const bool broken = joint.impulse.norm() > joint.break_force * time_step ||
+                            joint.angular_impulse.norm() > joint.break_torque * time_step;
+        if (broken) removeBroken(world, slot);
+    }
+}
+
+bool hasMotors(const WorldState& world) {
+    return std::ranges::any_of(world.joints, [](const Joint& joint) { return joint.present && joint.hasMotor(); });
+}
+
+}  // namespace cairn

@@ -1,0 +1,32 @@
+/// @file What the stages of a step do with joints.
+#pragma once
+
+#include "world/world_state.h"
+
+namespace cairn {
+
+/// Finds the groups of joints and the pairs that may not touch, and wakes groups of which a part is awake.
+void prepareJoints(WorldState& world);
+
+/// Wakes the sleeping bodies of every group of which a body is awake: they sleep and wake together.
+void wakeJointed(WorldState& world);
+
+/// Rows of all joints where their bodies are now, batch after batch.
+void buildJointBlocks(WorldState& world);
+
+/// A batch with its joints.
+BatchView batchOf(WorldState& world, std::uint32_t batch);
+
+/// A joint supports both its bodies like a contact in the direction of gravity.
+void countJointSupports(const WorldState& world, std::span<std::int32_t> supports);
+
+/// Puts the groups to sleep of which every body hardly moves.
+void letJointedSleep(WorldState& world);
+
+/// Notes the impulses of the resolution and removes the joints that were loaded too much.
+void finishJoints(WorldState& world);
+
+/// Whether a motor may add energy.
+bool hasMotors(const WorldState& world);
+
+}  // namespace cairn

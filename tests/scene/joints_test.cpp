@@ -1,0 +1,117 @@
+/// Joints in scene files.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scene_testing.h"
+
+namespace cairn {
+namespace {
+
+using testing::parseMessage;
+using testing::sceneText;
+
+/// A scene whose body 0 is fixed and whose bodies 1 and 2 move, with one joint.
+std::string withJoint(const std::string& joint) {
+    return sceneText(R"(,"joints":[)" + joint + "]");
+}
+
+TEST(SceneJoints, AreWrittenAndReadExactly) {
+    Scene scene = parseScene(sceneText(), "test");
+    scene.joints.reserve(6);
+    const auto add = [&](JointKind kind) -> JointDescription& {
+        scene.joints.push_back({1, 2, {.kind = kind, .anchor = Vec3(1.0 / 3, 0, -2)}});
+        return scene.joints.back().joint;
+    };
+    add(JointKind::distance).anchor_b = Vec3(1, 2, 3);
+    JointDescription& rope = add(JointKind::rope);
+    rope.anchor_b = Vec3::Zero();
+    rope.length = 7.0 / 3;
+    add(JointKind::ball).break_force = 12.5;
+    JointDescription& hinge = add(JointKind::hinge);
+    hinge.axis = Vec3(0, 1, 1);
+    hinge.lower = -0.5;
+    hinge.upper = 1.0 / 7;
+    hinge.motor = JointMotor{-2, 30};
+    hinge.break_torque = 4;
+    JointDescription& slider = add(JointKind::slider);
+    slider.axis = Vec3(1, 0, 0);
+    slider.upper = 2;
+    slider.collide = true;
+    add(JointKind::fixed);
+    scene.joints.back().b.reset();
+    const std::string text = formatScene(scene);
+    const Scene read = parseScene(text, "test");
+    EXPECT_EQ(formatScene(read), text);
+    ASSERT_EQ(read.joints.size(), 6U);
+    EXPECT_EQ(read.joints[3].joint.upper, hinge.upper);
+    EXPECT_EQ(read.joints[1].joint.length, rope.length);
+    EXPECT_TRUE(std::isinf(read.joints[1].joint.break_force));
+    EXPECT_FALSE(read.joints[5].b);
+}
+
+TEST(SceneJoints, RefuseWhatMeansNothing) {
+    const auto expect = [](const std::string& joint, const std::string& part) {
+        EXPECT_NE(parseMessage(withJoint(joint)).find(part), std::string::npos) << parseMessage(withJoint(joint));
+    };
+    expect(R"({"a":1})", "joints[0].type is missing");
+    expect(R"({"type":"glue","a":1})", "distance, rope, ball, hinge, slider, fixed");
+    expect(R"({"type":"ball","a":1,"axis":[0,0,1]})", "unknown key \"axis\"");
+    expect(R"({"type":"ball","a":1,"b":1})", "is the same body as a");
+    expect(R"({"type":"ball","a":0})", "joins nothing that can move");
+    expect(R"({"type":"ball","a":99})", "does not exist");
+    expect(R"({"type":"hinge","a":1})", "axis is missing");
+    expect(R"({"type":"hinge","a":1,"axis":[0,0,0]})", "axis is [0,0,0];");
+    expect(R"({"type":"slider","a":1,"axis":[1,0,0],"lower":1,"upper":0})", "has lower 1 above upper 0; swap them");
+    expect(R"({"type":"slider","a":1,"axis":[1,0,0],"motor":{"speed":1}})", "motor.limit is missing");
+    expect(R"({"type":"rope","a":1})", "anchor_b is missing");
+    expect(R"({"type":"ball","a":1,"break_force":-3})", "break_force is -3;");
+}
+
+TEST(SceneJoints, WhatOnlyAWorldCanSeeIsRefusedWithTheJointsNumber) {
+    const Scene scene = parseScene(withJoint(R"({"type":"hinge","a":1,"axis":[1,0,0],"lower":-9,"upper":1})"), "test");
+    try {
+        const SceneRun run(scene, settingsFor(scene));
+        FAIL() << "limits beyond ±π";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("joint 0"), std::string::npos) << error.what();
+    }
+}
+
+/// The energy that a run lost or gained, as a part of that of one ball pulled aside.
+double energyChange(SceneRun& run, double seconds) {
+    const World& world = run.world();
+    const auto energy = [&] { return world.kineticEnergy() + world.potentialEnergy(); };
+    const double before = energy();
+    while (world.time() < seconds) run.step();
+    return (energy() - before) / (world.mass(run.ids()[0]) * 9.81 * (1 - std::cos(0.3)));
+}
+
+/// Of a ball of radius r = 0.05 m on a rod of l = 1 m: √((l + 2r²/5l)/g) times 1 + θ²/16.
+double cradlePeriod() {
+    return 2 * std::numbers::pi * std::sqrt((1 + 0.4 * 0.05 * 0.05) / 9.81) * (1 + 0.3 * 0.3 / 16);
+}
+
+TEST(SceneJoints, AsManyBallsLeaveTheSwingingCradleAsArrive) {
+    const Scene scene = builtInScene("cradle_swing:5:2");
+    SceneRun run(scene, settingsFor(scene));
+    EXPECT_LE(std::abs(energyChange(run, 0.5 * cradlePeriod())), 2e-5);
+    const World& world = run.world();
+    const std::vector<JointId> joints = world.joints();
+    for (const std::size_t i : {0U, 1U, 2U, 3U, 4U}) {
+        EXPECT_LE(world.linearVelocity(run.ids()[i]).norm(), 5e-3) << i;
+        // Angles are counted from the beginning.
+        EXPECT_NEAR(world.joint(joints[i]).position, i == 2 ? 0 : -0.3, 5e-3) << i;
+    }
+}
+
+TEST(SceneJoints, TheSwingingCradleKeepsItsEnergy) {
+    const Scene scene = builtInScene("cradle_swing");
+    SceneRun run(scene, settingsFor(scene));
+    EXPECT_LE(std::abs(energyChange(run, 10 * cradlePeriod())), 1e-6);
+    for (const JointId joint : run.world().joints()) EXPECT_LE(run.world().joint(joint).error, 1e-9);
+}
+
+}  // namespace
+}  // namespace cairn
