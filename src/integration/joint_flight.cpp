@@ -153,12 +153,14 @@ void JointFlight::fly(const Flight& flight, std::span<Joint> joints, BodyStorage
     if (!(largestOf(start_error_) > leftover)) std::fill(start_error_.begin(), start_error_.end(), 0.0);
     received_.assign(system_.rows(), 0);
     now_.resize(flight.joints.size());
+    double left = 0;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
         evaluateAll(flight.joints, joints, bodies, flight.time_step, now_);
         collectErrors(now_, impulses_);
         for (std::size_t i = 0; i < impulses_.size(); ++i) impulses_[i] -= start_error_[i];
         const double error = largestOf(impulses_);
-        if (!std::isfinite(error)) return;
+        left = error;
+        if (!std::isfinite(error)) break;
         for (double& impulse : impulses_) impulse /= -flight.time_step;
         system_.solve(impulses_);
         if (error > good_enough) {
@@ -169,14 +171,33 @@ void JointFlight::fly(const Flight& flight, std::span<Joint> joints, BodyStorage
         if (!(error > good_enough || beyond > good_enough)) break;
         moveAgain(flight, bodies, settings);
     }
+    if (!(left <= large_error)) flyWithout(flight, bodies, settings);
+    report(flight, joints);
+    // The velocity stage gives the whole kick.
+    for (std::size_t k = 0; k < flight.bodies.size(); ++k) bodies.v[flight.bodies[k]] -= flight.start[k].half_kick;
+    moveBack(flight, joints, bodies);
+}
+
+/// Where no impulses lead to joints that hold (bodies that turn too far in one step), the velocities stay as they are
+/// and moveBack() does what it can.
+void JointFlight::flyWithout(const Flight& flight, BodyStorage& bodies, const IntegrationSettings& settings) {
+    for (std::size_t k = 0; k < velocity_.size(); ++k) {
+        velocity_[k] = flight.start[k].velocity;
+        velocity_[k].v += flight.start[k].half_kick;
+    }
+    std::fill(received_.begin(), received_.end(), 0.0);
+    for (JointBlock& block : flight.blocks) {
+        for (BoundRow& bound : block.bound) bound.impulse = 0;
+    }
+    moveAgain(flight, bodies, settings);
+}
+
+void JointFlight::report(const Flight& flight, std::span<Joint> joints) const {
     std::size_t row = 0;
     for (JointBlock& block : flight.blocks) {
         for (std::uint32_t i = 0; i < block.size; ++i) block.impulse[i] = received_[row++];
         reportImpulses(block, joints[block.joint]);
     }
-    // The velocity stage gives the whole kick.
-    for (std::size_t k = 0; k < flight.bodies.size(); ++k) bodies.v[flight.bodies[k]] -= flight.start[k].half_kick;
-    moveBack(flight, joints, bodies);
 }
 
 void JointFlight::moveAgain(const Flight& flight, BodyStorage& bodies, const IntegrationSettings& settings) const {

@@ -58,6 +58,8 @@ class JointFlight {
     static bool isResting(const Contact& contact, const BodyStorage& bodies, const Motion& motion);
     void noteKicks(const JointGroups& groups, std::size_t group, const BodyStorage& bodies, const Motion& motion);
     void fly(const Flight& flight, std::span<Joint> joints, BodyStorage& bodies, const IntegrationSettings& settings);
+    void flyWithout(const Flight& flight, BodyStorage& bodies, const IntegrationSettings& settings);
+    void report(const Flight& flight, std::span<Joint> joints) const;
     void moveAgain(const Flight& flight, BodyStorage& bodies, const IntegrationSettings& settings) const;
     double keepBounds(const Flight& flight);
     void addResponse(double impulse);
