@@ -20,7 +20,6 @@ enum class Preset { performance, accuracy };
 enum class BroadPhaseKind { hash_grids, all_pairs };
 /// Which penetration correction runs. @source thesis §2
 enum class CorrectionKind { propagated, none };
-/// Which contact resolution runs; impulse_queue is the thesis's. @source thesis §3
 /// How closing contacts are resolved: the thesis's queue, a plain sweep as an independent second one, sweeps with warm
 /// starting accelerated by conjugate gradients, or not at all.
 enum class ResolutionKind { impulse_queue, sweep, accelerated_sweeps, none };
@@ -37,7 +36,11 @@ struct DetectionSettings {
 struct CorrectionSettings {
     CorrectionKind correction = CorrectionKind::propagated;  ///< the algorithm, or none
     double penetration_threshold = 1.74e-3;  ///< overlap above which a contact is corrected [m]; −thr_pen of the thesis
-    double remaining_penetration = 0.5;      ///< part of the threshold that a correction leaves, in (0, 1) (2.5.4)
+    double remaining_penetration = 0.7;      ///< part of the threshold that a correction leaves, in (0, 1) (2.5.4)
+    /// Further attempts for contacts that no candidate corrects: the first for those deeper than 1.5 times the
+    /// threshold, each next one for twice that, so that a deep overlap in a tight pile is spread over its neighbours.
+    /// 0 = none, as in the thesis; 0 to 16.
+    std::int64_t spread_levels = 8;
 };
 
 /// Contact resolution and shock propagation. @source thesis §3.3–3.8

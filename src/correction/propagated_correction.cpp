@@ -1,5 +1,7 @@
 #include "correction/propagated_correction.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -7,6 +9,10 @@
 namespace cairn {
 
 namespace {
+
+/// Contacts that cannot be corrected are left alone up to this multiple of the threshold: spreading less would keep
+/// resting piles awake.
+constexpr double first_spread = 1.5;
 
 /// Moves the bodies of a search and wakes them. @return how many
 std::int64_t moveBodies(const Propagation& search, const BodyState& bodies) {
@@ -41,23 +47,24 @@ CorrectionCounts PropagatedCorrection::correct(const BatchView& batch, const Con
                                                std::span<Contact> contacts, const BodyState& bodies,
                                                const CorrectionSettings& settings) {
     const double threshold = -settings.penetration_threshold;  // thr_pen
-    const double remaining = settings.remaining_penetration * threshold;
     best_.reserve(bodies.size());
     trial_.reserve(bodies.size());
     penetrating_.clear();
     for (const std::uint32_t index : batch.contacts) {
         if (contacts[index].distance < threshold) penetrating_.push_back(index);
     }
-    graph_.reset(contacts_of, contacts, bodies, remaining);
-
     CorrectionCounts counts;
     counts.penetrating = static_cast<std::int64_t>(penetrating_.size());
-    for (const std::uint32_t index : penetrating_) {
-        // The correction of another contact may have corrected this one.
-        if (!(contacts[index].distance < threshold)) continue;
-        if (!choose(contacts[index], bodies, remaining)) continue;
-        counts.displaced += moveBodies(best_, bodies);
-        updateContacts(best_, contacts_of, contacts, graph_);
+    Pass pass{threshold, settings.remaining_penetration * threshold};
+    const double spread_part = (1 + settings.remaining_penetration) / 2;
+    for (std::int64_t level = 0; level <= settings.spread_levels; ++level) {
+        const bool any = std::any_of(penetrating_.begin(), penetrating_.end(),
+                                     [&](std::uint32_t index) { return contacts[index].distance < pass.limit; });
+        if (!any) break;
+        graph_.reset(contacts_of, contacts, bodies, pass.remaining);
+        counts.displaced += run(pass, contacts_of, contacts, bodies);
+        pass.limit = std::ldexp(first_spread * threshold, static_cast<int>(level));
+        pass.remaining = spread_part * pass.limit;
     }
     for (const std::uint32_t index : penetrating_) {
         if (contacts[index].distance < threshold) {
@@ -67,6 +74,20 @@ CorrectionCounts PropagatedCorrection::correct(const BatchView& batch, const Con
         }
     }
     return counts;
+}
+
+/// Corrects the contacts deeper than the pass's limit. @return how many bodies were moved
+std::int64_t PropagatedCorrection::run(const Pass& pass, const ContactsOfBodies& contacts_of,
+                                       std::span<Contact> contacts, const BodyState& bodies) {
+    std::int64_t displaced = 0;
+    for (const std::uint32_t index : penetrating_) {
+        // The correction of another contact may have corrected this one.
+        if (!(contacts[index].distance < pass.limit)) continue;
+        if (!choose(contacts[index], bodies, pass.remaining)) continue;
+        displaced += moveBodies(best_, bodies);
+        updateContacts(best_, contacts_of, contacts, graph_);
+    }
+    return displaced;
 }
 
 bool PropagatedCorrection::choose(const Contact& contact, const BodyState& bodies, double remaining) {

@@ -99,6 +99,9 @@ const std::vector<SettingField>& fields() {
                                                          "overlap above which a contact is corrected"),
         plain<&S::correction, &C::remaining_penetration>("remaining_penetration", "correction", "", 0.001, 0.999,
                                                          "part of the threshold that a correction leaves (2.5.4)"),
+        plain<&S::correction, &C::spread_levels>(
+            "spread_levels", "correction", "", 0, 16,
+            "attempts to spread overlaps that no candidate corrects; 0 = none, as in the thesis"),
         choice<&S::resolution, &R::resolution, resolution_names>("resolution", "resolution",
                                                                  "algorithm of the contact resolution"),
         choice<&S::resolution, &R::order, order_names>("order", "resolution", "which closing contact is resolved next"),

@@ -28,6 +28,49 @@ TEST(PropagatedCorrection, LeavesContactsDownToTheThreshold) {
     EXPECT_GT(scene.position[x].z(), 0.0624);
 }
 
+/// Two bodies too large for the room between two walls: whichever is moved, it is pushed into a wall.
+ContactScene wedgedBodies() {
+    ContactScene scene;
+    scene.settings.penetration_threshold = 1;
+    const BodyIndex left_wall = scene.addFixed();
+    const BodyIndex a = scene.addBody();
+    const BodyIndex b = scene.addBody();
+    const BodyIndex right_wall = scene.addFixed();
+    scene.touch(a, left_wall, right, -0.5);
+    scene.touch(b, a, right, -8);
+    scene.touch(right_wall, b, right, -0.5);
+    return scene;
+}
+
+TEST(PropagatedCorrection, LeavesWhatNoCandidateCorrectsAsItIs) {
+    ContactScene scene = wedgedBodies();
+    const CorrectionCounts counts = scene.correct();
+    EXPECT_EQ(counts.uncorrected, 1);
+    EXPECT_EQ(counts.displaced, 0);
+    EXPECT_EQ(scene.contacts[1].distance, -8);
+}
+
+TEST(PropagatedCorrection, SpreadsADeepOverlapOverTheContactsAroundIt) {
+    ContactScene scene = wedgedBodies();
+    scene.settings.spread_levels = 8;
+    // 1.5 times the threshold is no use yet, but with 6 (and 0.75 of it remaining) one body can give way.
+    const CorrectionCounts counts = scene.correct();
+    EXPECT_EQ(counts.displaced, 1);
+    EXPECT_EQ(counts.uncorrected, 1);
+    EXPECT_DOUBLE_EQ(scene.contacts[1].distance, -4.5);
+    EXPECT_DOUBLE_EQ(scene.contacts[0].distance + scene.contacts[2].distance, -4.5);
+    // The deepest overlap shrinks until nothing is deeper than 1.5 times the threshold or no room is left.
+    for (int step = 0; step < 20; ++step) scene.correct();
+    for (const Contact& contact : scene.contacts) EXPECT_GE(contact.distance, -4.5);
+}
+
+TEST(PropagatedCorrection, SpreadsNothingBelowOneAndAHalfTimesTheThreshold) {
+    ContactScene scene = wedgedBodies();
+    scene.settings.spread_levels = 8;
+    scene.contacts[1].distance = -1.5;
+    EXPECT_EQ(scene.correct().displaced, 0);
+}
+
 TEST(PropagatedCorrection, WakesTheBodiesItMovesAndNoOthers_WakeCondition2) {
     ContactScene scene;
     const BodyIndex ground = scene.addFixed();

@@ -105,14 +105,17 @@ TEST(Faults, ThousandsInsideEachOtherSeparateWithoutAnExplosion) {
         }
         const double energy = g.world.kineticEnergy() + g.world.potentialEnergy();
         double first_overlap = 0;
+        std::int64_t penetrating = 0;
         double speed = 0;
         for (int i = 0; i < 90; ++i) {
             g.world.step();
-            if (i == 0) first_overlap = g.world.statistics().largest_overlap;
+            const Statistics& statistics = g.world.statistics();
+            if (i == 0) first_overlap = statistics.largest_overlap;
+            if (i == 0) penetrating = statistics.corrected_contacts + statistics.uncorrected_contacts;
             speed = std::max(speed, fastest(g.world));
         }
         EXPECT_TRUE(g.world.faults().empty());
-        EXPECT_GT(first_overlap, 0.01) << "they were inside each other";
+        EXPECT_GT(penetrating, 1500) << "they were inside each other";
         // A fall from the top of the heap takes √(2·10·1) m/s; without gravity nothing may move at all.
         EXPECT_LT(speed, on_the_floor ? 6 : 1e-9);
         if (!on_the_floor) {
