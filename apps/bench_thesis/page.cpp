@@ -60,11 +60,15 @@ Json withPictures(Json report, const std::filesystem::path& out) {
 
 }  // namespace
 
-std::optional<std::string> makePage(const Json& report, const std::filesystem::path& out) {
-    std::string page(reinterpret_cast<const char*>(bytes), sizeof bytes);
+std::optional<std::string> fillPage(std::span<const unsigned char> built, const Json& report) {
+    std::string page(reinterpret_cast<const char*>(built.data()), built.size());
     const std::size_t at = page.find(placeholder);
     if (at == std::string::npos) return {};
-    return page.replace(at, placeholder.size(), safeInScript(withPictures(report, out).dump()));
+    return page.replace(at, placeholder.size(), safeInScript(report.dump()));
+}
+
+std::optional<std::string> makePage(const Json& report, const std::filesystem::path& out) {
+    return fillPage(bytes, withPictures(report, out));
 }
 
 }  // namespace cairn::thesis

@@ -19,12 +19,18 @@ Result run(const Plan& plan) {
     settings.resolution.restitution_threshold = 0;
     settings.resolution.resolution_threshold = 1e-9;
     Gas gas(settings, 10, radius, fraction, 1, contactLaw(1, 0));
-    // The speeds become Maxwell's while the balls are still elastic.
+    // The speeds become Maxwell's while the balls are still elastic; then their density is averaged.
     runUntil(gas.world, 2);
+    double density = 0;
+    constexpr int samples = 40;
+    for (int i = 1; i <= samples; ++i) {
+        plan.alive();
+        runUntil(gas.world, 2 + 0.1 * i);
+        density += gas.densityInside() / samples;
+    }
     gas.world.setPairProperties(MaterialId{0}, MaterialId{0}, contactLaw(restitution, 0));
     const double begin = gas.world.time();
     const double kT = gas.temperature();
-    const double density = gas.densityInside();
     const double eta = density * 4 / 3 * std::numbers::pi * std::pow(radius, 3);
     const double chi = (1 - eta / 2) / std::pow(1 - eta, 3);
     const double collisions = 16 * radius * radius * density * chi * std::sqrt(std::numbers::pi * kT);
@@ -47,7 +53,8 @@ Result run(const Plan& plan) {
     }
     const double slope = (n * str - st * sr) / (n * stt - st * st);
     result.relative("rate of cooling 1/τ", "1/s", cooling, slope, 0.03, timeStepText(rate),
-                    "slope of √(T₀/T); the density is that in the middle of the cage at the beginning");
+                    "slope of √(T₀/T); the density is the mean of that in the middle of the cage before the balls "
+                    "become inelastic");
     result.figures.push_back({"Cooling", "time [s]", "T/T₀", {measured, expected}, true});
     return result;
 }

@@ -52,6 +52,11 @@ function logTicks(least: number, most: number, most_ticks: number): number[] {
   return ticks.filter((tick) => tick >= least && tick <= most);
 }
 
+/** Numbers that would need many zeros are written as powers of ten. */
+function logTick(y: number): string {
+  return y >= 1e-3 && y < 1e6 ? y.toLocaleString('en') : y.toExponential(0).replace('e', '·10^').replace('+', '');
+}
+
 function draw(figure: Figure, width: number): SVGSVGElement | HTMLElement {
   const lines = figure.lines.map((_, i) => pointsOf(figure, i));
   const log = figure.scale === 'log';
@@ -72,7 +77,7 @@ function draw(figure: Figure, width: number): SVGSVGElement | HTMLElement {
     marks: [
       // A logarithmic axis labels only some of the ticks it is given, unless their texts are given, too.
       log ? Plot.gridY(ticks) : Plot.ruleY([0], { stroke: 'var(--axis)' }),
-      log ? Plot.axisY(ticks, { label: figure.y, text: (y: number) => y.toLocaleString('en') }) : null,
+      log ? Plot.axisY(ticks, { label: figure.y, text: logTick }) : null,
       ...figure.references.map((reference, i) =>
         Plot.ruleY([reference.y], {
           stroke: 'var(--reference)',
