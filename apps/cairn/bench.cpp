@@ -1,12 +1,12 @@
-/// @file cairn bench: the thesis's benchmarks beside ours.
+/// @file cairn bench: the thesis's benchmarks beside ours, and the suites of our own.
 #include "bench_thesis/bench.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <memory>
 
+#include "bench_progress.h"
+#include "bench_suites.h"
 #include "commands.h"
 #include "interrupt.h"
 #include "output.h"
@@ -22,33 +22,6 @@ struct BenchArguments {
     bool quick = false;
     bool no_pictures = false;
     std::optional<double> rating;
-};
-
-/// A line on the standard error, if that is a terminal.
-class BenchProgress {
-  public:
-    BenchProgress() = default;
-    BenchProgress(const BenchProgress&) = delete;
-    BenchProgress& operator=(const BenchProgress&) = delete;
-    ~BenchProgress() {
-        if (shown_) printLine(stderr, "");
-    }
-
-    void update(const thesis::Position& position) {
-        const auto now = Clock::now();
-        if (!shown_ || now < next_) return;
-        next_ = now + std::chrono::milliseconds(200);
-        constexpr int width = 30;
-        const int filled = static_cast<int>(position.part * width);
-        fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:3.0f} %  {}", "", filled, "", width - filled,
-                   100 * position.part, position.what);
-        std::fflush(stderr);
-    }
-
-  private:
-    using Clock = std::chrono::steady_clock;
-    bool shown_ = isatty(STDERR_FILENO) == 1;
-    Clock::time_point next_ = Clock::now();
 };
 
 void drawPicture(const RecordingReader& recording, const thesis::Picture& picture) {
@@ -67,7 +40,7 @@ thesis::BenchOutcome measure(const BenchArguments& arguments) {
     options.only = arguments.only;
     options.extent = arguments.quick ? thesis::Extent::quick : thesis::Extent::full;
     options.rating = arguments.rating;
-    options.progress = [&](const thesis::Position& position) { progress.update(position); };
+    options.progress = [&](const thesis::Position& position) { progress.update(position.part, position.what); };
     options.interrupted = interrupted;
     if (!arguments.no_pictures) options.picture = drawPicture;
     return thesis::runBench(options);
@@ -105,6 +78,7 @@ void addBench(CLI::App& app, int& exit_code) {
                      "PassMark single-thread rating of this processor, for the factor to the thesis's")
         ->check(CLI::PositiveNumber);
     command->callback([arguments, &exit_code] { exit_code = runThesis(*arguments); });
+    addBenchSuites(*bench, exit_code);
 }
 
 }  // namespace cairn::cli

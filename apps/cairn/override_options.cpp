@@ -11,6 +11,12 @@ namespace {
 
 constexpr std::int64_t most_threads = 1024;
 
+std::int64_t allCores() {
+    return std::clamp<std::int64_t>(std::thread::hardware_concurrency(), 1, most_threads);
+}
+
+}  // namespace
+
 std::pair<std::string, std::string> splitField(const std::string& text) {
     const std::size_t at = text.find('=');
     if (at == std::string::npos || at == 0) {
@@ -18,12 +24,6 @@ std::pair<std::string, std::string> splitField(const std::string& text) {
     }
     return {text.substr(0, at), text.substr(at + 1)};
 }
-
-std::int64_t allCores() {
-    return std::clamp<std::int64_t>(std::thread::hardware_concurrency(), 1, most_threads);
-}
-
-}  // namespace
 
 void addOverrideOptions(CLI::App& command, OverrideOptions& options) {
     command.add_option("--preset", options.preset, "The default is the scene's, or else performance")

@@ -22,6 +22,9 @@ struct OverrideOptions {
 /// Adds --preset, --threads, --steps-per-second and --set. @param options must outlive the command
 void addOverrideOptions(CLI::App& command, OverrideOptions& options);
 
+/// The two sides of `--set field=value`. @throws InputError
+std::pair<std::string, std::string> splitField(const std::string& text);
+
 /// The threads are all cores unless somebody asks for a number. @throws InputError
 SettingOverrides overridesFrom(const OverrideOptions& options, const Scene& scene);
 

@@ -1,0 +1,191 @@
+/// @file The suites run, say what they measured, and refuse what they cannot do.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "bench/peers.h"
+#include "bench/scenes.h"
+
+namespace cairn::bench {
+namespace {
+
+std::set<std::string> namesOf(const Json& entries) {
+    std::set<std::string> names;
+    for (const Json& entry : entries) names.insert(entry.at("name").get<std::string>());
+    return names;
+}
+
+const Json& entryOf(const Json& results, const std::string& name) {
+    for (const Json& entry : results.at("entries")) {
+        if (entry.at("name") == name) return entry;
+    }
+    throw std::out_of_range(name);
+}
+
+PeersOptions quickPeers() {
+    PeersOptions options;
+    options.scenes = {"tower:3", "heavy:2"};
+    options.engines = {"cairn"};
+    options.longest = 0.2;
+    options.repetitions = 2;
+    options.progress = [](double, const std::string&) {};
+    return options;
+}
+
+ScenesOptions quickScenes() {
+    ScenesOptions options;
+    options.scenes = {"tower:3"};
+    options.longest = 0.2;
+    options.repetitions = 2;
+    options.progress = [](double, const std::string&) {};
+    return options;
+}
+
+/// Whether this program was built with an engine.
+bool has(EngineKind (*make)()) {
+    try {
+        make();
+        return true;
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("install the Debian package"), std::string::npos) << error.what();
+        return false;
+    }
+}
+
+TEST(Peers, MeasureTimeAndQualityOfEachSceneAndEngine) {
+    PeersOptions options = quickPeers();
+    options.variants = {{"plain", {{"resolution", "sweep"}}}};
+    const Outcome outcome = runPeers(options);
+    EXPECT_EQ(namesOf(outcome.json.at("entries")),
+              (std::set<std::string>{"tower:3/cairn", "tower:3/plain", "heavy:2/cairn", "heavy:2/plain"}));
+    const Json& entry = entryOf(outcome.json, "tower:3/cairn");
+    EXPECT_EQ(entry.at("step_ms").size(), 6U);
+    EXPECT_GT(entry.at("values").at("average_ms"), 0);
+    EXPECT_NEAR(entry.at("values").at("highest_m").get<double>(), 0.25, 1e-3);
+    EXPECT_EQ(entry.at("values").at("lost"), 0);
+    EXPECT_NE(outcome.table.find("tower:3"), std::string::npos);
+    EXPECT_NE(outcome.json.at("engines").at("plain").at("settings").get<std::string>().find("resolution=sweep"),
+              std::string::npos);
+}
+
+/// Cairn without gravity damping: that takes a part of gravity from bodies that begin to fall, on purpose.
+EngineKind undampedCairn() {
+    SettingOverrides overrides;
+    overrides.fields = {{"damping", "0"}};
+    return cairnEngine("cairn", overrides, 1);
+}
+
+TEST(Peers, GiveEveryEngineTheSameStart) {
+    // After one simulation step nothing has had time to fall apart: a body of the wrong size, place, mass or gravity
+    // would show.
+    for (EngineKind (*make)() : {bulletEngine, odeEngine}) {
+        if (!has(make)) continue;
+        const EngineKind kind = make();
+        for (const char* name : {"tower:3", "cage384", "heap:20"}) {
+            const Scene scene = builtInScene(name);
+            const RigidScene rigid(scene);
+            const auto theirs = kind.make(scene, rigid, {240, true});
+            const auto ours = undampedCairn().make(scene, rigid, {240, true});
+            for (int i = 0; i < 8; ++i) {
+                theirs->step();
+                ours->step();
+            }
+            std::vector<Pose> their_poses, our_poses;
+            theirs->poses(their_poses);
+            ours->poses(our_poses);
+            ASSERT_EQ(their_poses.size(), our_poses.size());
+            for (std::size_t i = 0; i < our_poses.size(); ++i) {
+                EXPECT_LT((their_poses[i].position - our_poses[i].position).norm(), 3e-3)
+                    << kind.name << ", " << name << ", body " << i;
+                EXPECT_LT(their_poses[i].orientation.angularDistance(our_poses[i].orientation), 3e-2)
+                    << kind.name << ", " << name << ", body " << i;
+            }
+        }
+    }
+}
+
+TEST(Peers, FallFreelyAsTheirGravitySays) {
+    Scene scene = builtInScene("tower:1");
+    scene.bodies[1].position = {0, 0, 10};
+    scene.gravity.setZero();
+    scene.events = {{0.1, SetGravity{{0, 0, -10}}}};
+    const RigidScene rigid(scene);
+    std::vector<EngineKind> kinds = {undampedCairn()};
+    for (EngineKind (*make)() : {bulletEngine, odeEngine}) {
+        if (has(make)) kinds.push_back(make());
+    }
+    for (const EngineKind& kind : kinds) {
+        const auto engine = kind.make(scene, rigid, {240, true});
+        std::vector<Pose> poses;
+        for (int i = 0; i < 24; ++i) engine->step();
+        engine->poses(poses);
+        EXPECT_NEAR(poses[1].position.z(), 10, 1e-6) << kind.name;
+        for (int i = 0; i < 120; ++i) engine->step();
+        engine->poses(poses);
+        // Schemes of first order differ by a time step's fall.
+        EXPECT_NEAR(poses[1].position.z(), 10 - 0.5 * 10 * 0.25, 5.0 / 240) << kind.name;
+    }
+}
+
+TEST(Peers, RefuseWhatTheyDoNotKnow) {
+    PeersOptions options = quickPeers();
+    options.engines = {"havok"};
+    EXPECT_THROW(runPeers(options), InputError);
+    options = quickPeers();
+    options.scenes = {"nonsense"};
+    EXPECT_THROW(runPeers(options), InputError);
+    options = quickPeers();
+    options.steps_per_second = 100;
+    EXPECT_THROW(runPeers(options), InputError);
+    options = quickPeers();
+    options.variants = {{"cairn", {}}};
+    EXPECT_THROW(runPeers(options), InputError);
+    options = quickPeers();
+    options.overrides.fields = {{"nonsense", "1"}};
+    EXPECT_THROW(runPeers(options), InputError);
+}
+
+TEST(Peers, StopWhenAskedTo) {
+    PeersOptions options = quickPeers();
+    options.progress = [](double part, const std::string&) {
+        EXPECT_GE(part, 0);
+        EXPECT_LE(part, 1);
+        if (part > 0.4) throw Interrupted{};
+    };
+    EXPECT_THROW(runPeers(options), Interrupted);
+}
+
+TEST(Scenes, MeasureEachNumberOfThreadsAndVariant) {
+    ScenesOptions options = quickScenes();
+    options.threads = {1, 2};
+    options.variants = {{"plain", {{"resolution", "sweep"}}}};
+    const Outcome outcome = runScenes(options);
+    EXPECT_EQ(namesOf(outcome.json.at("entries")),
+              (std::set<std::string>{"tower:3/threads1", "tower:3/threads2", "tower:3/plain/threads1",
+                                     "tower:3/plain/threads2"}));
+    const Json& one = entryOf(outcome.json, "tower:3/threads1");
+    EXPECT_EQ(one.at("state_hash"), entryOf(outcome.json, "tower:3/threads2").at("state_hash"));
+    EXPECT_EQ(one.at("step_ms").size(), 6U);
+    EXPECT_EQ(one.at("stages_ms").size(), stage_count);
+    EXPECT_GT(one.at("values").at("contacts"), 0);
+    for (const char* key : {"suite", "version", "date", "machine", "compiler", "flags"}) {
+        EXPECT_TRUE(outcome.json.contains(key)) << key;
+    }
+}
+
+TEST(Scenes, CompareAFallingPileWithTheSettledOne) {
+    ScenesOptions options = quickScenes();
+    options.scenes = {"pile:20"};
+    options.longest = 5;
+    options.repetitions = 1;
+    const Json json = runScenes(options).json;
+    const Json& values = entryOf(json, "pile:20/threads1").at("values");
+    EXPECT_GT(values.at("falling_seconds"), 0.1);
+    EXPECT_LT(values.at("falling_seconds"), 5);
+    EXPECT_GT(values.at("falling_ms"), 0);
+    EXPECT_GT(values.at("settled_ms"), 0);
+    EXPECT_EQ(values.at("asleep"), 0);
+}
+
+}  // namespace
+}  // namespace cairn::bench
