@@ -89,6 +89,20 @@ enum class Checks : std::uint8_t {
 };
 
 struct WorldState;
+struct MomentState;
+
+/// A world at one time, in memory only: what rollback keeps in every step. Empty until World::keep().
+class Moment {
+  public:
+    Moment();  ///< holds nothing yet
+    ~Moment();
+    Moment(Moment&&) noexcept;
+    Moment& operator=(Moment&&) noexcept;
+
+  private:
+    friend class World;
+    std::unique_ptr<MomentState> state_;
+};
 
 /// A simulated world. Not copyable; one thread at a time may use it (its own threads are inside step()).
 class World {
@@ -196,12 +210,17 @@ class World {
     // --- snapshots ---
     /// Everything that the world is, so that it goes on bit by bit as it would have. @source docs/snapshots.md
     std::vector<std::byte> save() const;
-    /// As save(), into a buffer whose memory is used again: what a rollback does in every step.
+    /// As save(), into a buffer whose memory is used again.
     void saveTo(std::vector<std::byte>& buffer) const;
     /// A world as it was saved. @throws InputError with the offset, for bytes that are truncated, damaged or too new
     static World restore(std::span<const std::byte> snapshot);
     /// Becomes what was saved; ids of that time are valid again. Unchanged if it throws. @throws as restore()
     void load(std::span<const std::byte> snapshot);
+    /// Overwrites a moment with what save() would write, at a fraction of its cost when the moment's memory is there
+    /// already: bodies, shapes and materials are shared as long as none is added, removed or changed by a call.
+    void keep(Moment& moment) const;
+    /// Becomes what was kept, of this or another world, as load() of a snapshot does. @throws InputError if it is empty
+    void load(const Moment& moment);
 
     // --- after a step ---
     std::vector<ContactInfo> contacts() const;     ///< of the last step, by (a, b)

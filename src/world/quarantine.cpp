@@ -31,6 +31,7 @@ void quarantine(WorldState& world) {
     BodyStorage& bodies = world.bodies;
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (bodies.kind[i] != BodyKind::dynamic || isSound(bodies, i)) continue;
+        world.lasting.reset();
         world.faults.push_back({.body = bodies.idOf(i), .step = world.steps, .what = describe(bodies, i)});
         if (!bodies.position[i].allFinite()) bodies.position[i].setZero();
         if (!bodies.orientation[i].coeffs().allFinite()) bodies.orientation[i].setIdentity();

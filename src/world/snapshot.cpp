@@ -43,9 +43,16 @@ SettingValue loadSettingValue(ByteReader& in) {
     }
 }
 
-/// Fields that a newer program added keep their defaults.
-Settings loadSettings(ByteReader& in) {
+/// What worlds did before there was a setting for it, where that is not its default.
+Settings settingsOfTheFirstVersion() {
     Settings settings;
+    settings.correction.spread_levels = 0;
+    return settings;
+}
+
+/// Settings that are newer than the snapshot get the value that means what the world did without them.
+Settings loadSettings(ByteReader& in) {
+    Settings settings = settingsOfTheFirstVersion();
     for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
         const std::string name = in.getText();
         const SettingValue value = loadSettingValue(in);

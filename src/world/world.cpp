@@ -48,6 +48,7 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 MaterialId World::addMaterial(const Material& material) {
+    state_->lasting.reset();
     return state_->materials.add(material);
 }
 
@@ -56,10 +57,12 @@ std::span<const Material> World::materials() const {
 }
 
 void World::setDefaultPairProperties(const PairProperties& properties) {
+    state_->lasting.reset();
     state_->materials.setDefault(properties);
 }
 
 void World::setPairProperties(MaterialId a, MaterialId b, const PairProperties& properties) {
+    state_->lasting.reset();
     state_->materials.setPair(a, b, properties);
 }
 

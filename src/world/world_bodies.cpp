@@ -117,6 +117,7 @@ BodyId World::addBody(const BodyDescription& d) {
             fmt::format("a body too many: the setting body_limit allows {}; raise it or remove bodies first",
                         w.settings.limits.body_limit));
     }
+    w.lasting.reset();
     const BodyIndex i = b.allocate(d.fixed ? BodyKind::fixed : BodyKind::dynamic);
     b.shape[i] = normalised(d.shape);
     try {
@@ -141,6 +142,7 @@ BodyId World::addBody(const BodyDescription& d) {
 void World::removeBody(BodyId id) {
     WorldState& w = *state_;
     const BodyIndex i = w.bodies.indexOf(id);
+    w.lasting.reset();
     const BodyState bodies = w.bodies.state();
     for (const Contact& contact : w.data.contacts) {
         // Slots that were removed and filled again since the last step do not know these contacts.
@@ -267,6 +269,7 @@ void World::setFixed(BodyId id, bool fixed) {
     if (!fixed && isInfinite(b.shape[i])) {
         throw InputError(fmt::format("a {} has no mass and stays fixed", shapeName(b.shape[i])));
     }
+    state_->lasting.reset();
     b.state().wake(i, WakeReason::changed);
     b.kind[i] = fixed ? BodyKind::fixed : BodyKind::dynamic;
     b.v[i].setZero();
@@ -330,6 +333,7 @@ void World::applyAngularImpulse(BodyId id, const Vec3& impulse) {
 void World::setConstantForce(BodyId id, const Vec3& force) {
     const BodyIndex i = dynamicIndex(state_->bodies, id, "force");
     requireWithin(force, load_limit, "force", "N");
+    state_->lasting.reset();
     state_->bodies.constant_force[i] = force;
     state_->bodies.state().wake(i, WakeReason::changed);
 }
@@ -337,6 +341,7 @@ void World::setConstantForce(BodyId id, const Vec3& force) {
 void World::setConstantTorque(BodyId id, const Vec3& torque) {
     const BodyIndex i = dynamicIndex(state_->bodies, id, "torque");
     requireWithin(torque, load_limit, "torque", "N·m");
+    state_->lasting.reset();
     state_->bodies.constant_torque[i] = torque;
     state_->bodies.state().wake(i, WakeReason::changed);
 }

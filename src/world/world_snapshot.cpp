@@ -1,5 +1,6 @@
 /// The part of World that saves and restores.
 #include "cairn/world.h"
+#include "world/moment.h"
 #include "world/snapshot.h"
 
 namespace cairn {
@@ -31,6 +32,21 @@ void World::load(std::span<const std::byte> snapshot) {
     loaded.setChecks(state_->checks);
     loaded.setTracing(state_->trace.tracing);
     *this = std::move(loaded);
+}
+
+Moment::Moment() = default;
+Moment::~Moment() = default;
+Moment::Moment(Moment&&) noexcept = default;
+Moment& Moment::operator=(Moment&&) noexcept = default;
+
+void World::keep(Moment& moment) const {
+    if (moment.state_ == nullptr) moment.state_ = std::make_unique<MomentState>();
+    keepMoment(*state_, *moment.state_);
+}
+
+void World::load(const Moment& moment) {
+    if (moment.state_ == nullptr) throw InputError("the moment is empty; fill it with World::keep() first");
+    loadMoment(*moment.state_, *state_);
 }
 
 }  // namespace cairn

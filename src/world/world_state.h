@@ -78,6 +78,8 @@ struct EventLog {
     std::size_t faults_before = 0;              ///< at the beginning of the step
 };
 
+struct LastingPart;
+
 /// The back of World.
 struct WorldState {
     explicit WorldState(const Settings& settings);
@@ -114,6 +116,7 @@ struct WorldState {
     EventLog events;
     TraceData trace;
     Checks checks = Checks::off;
+    std::shared_ptr<const LastingPart> lasting;  ///< shared with the last moment; null = it changed since
 };
 
 /// One time step. @source thesis Algorithm 6

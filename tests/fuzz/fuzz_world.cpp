@@ -1,5 +1,6 @@
 /// Any sequence of calls is carried out or refused with InputError, and no step breaks an invariant. A copy from a
-/// snapshot goes on in the same way. Usual worlds without restitution are also held to their energy.
+/// snapshot goes on in the same way, and going back to a moment undoes everything. Usual worlds without restitution are
+/// also held to their energy.
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -21,10 +22,57 @@ void setPair(World& world, fuzz::Bytes& in) {
     world.setDefaultPairProperties(pair);
 }
 
+/// What the calls so far made.
+struct Made {
+    std::vector<BodyId> bodies;
+    std::vector<SpringId> springs;
+    std::vector<JointId> joints;
+    Moment moment;
+    std::vector<std::byte> moment_saved;  ///< the world of the moment; empty before there is one
+
+    static constexpr std::size_t most_joints = 16;
+};
+
+/// One of them, or an id of nothing.
+template <class Id>
+Id anyOf(const std::vector<Id>& ids, fuzz::Bytes& in) {
+    return ids.empty() ? Id{} : ids[in.below(static_cast<std::uint32_t>(ids.size()))];
+}
+
+void addJoint(World& world, fuzz::Bytes& in, Made& made) {
+    if (made.joints.size() >= Made::most_joints) return;
+    JointDescription d{.kind = static_cast<JointKind>(in.below(6)), .a = anyOf(made.bodies, in)};
+    if (in.below(2) == 0) d.b = anyOf(made.bodies, in);
+    d.anchor = in.vector(2);
+    if (d.kind == JointKind::distance || d.kind == JointKind::rope) d.anchor_b = in.vector(2);
+    if (in.below(2) == 0) d.axis = in.vector(1);
+    if (in.below(4) == 0) d.length = std::abs(in.number(2));
+    if (in.below(4) == 0) d.lower = in.number(1);
+    if (in.below(4) == 0) d.upper = in.number(1);
+    if (in.below(4) == 0) d.motor = JointMotor{in.number(10), std::abs(in.number(100))};
+    if (in.below(4) == 0) d.break_force = std::abs(in.number(1e3));
+    if (in.below(4) == 0) d.break_torque = std::abs(in.number(1e3));
+    d.collide = in.below(2) == 0;
+    made.joints.push_back(world.addJoint(d));
+}
+
+/// Keeps a moment, or goes back to it.
+void travel(World& world, fuzz::Bytes& in, Made& made) {
+    if (in.below(2) == 0) {
+        world.keep(made.moment);
+        world.saveTo(made.moment_saved);
+    } else {
+        world.load(made.moment);
+        fuzz::require(world.save() == made.moment_saved);
+    }
+}
+
 /// One call with arguments from the bytes, good or bad.
-void act(World& world, fuzz::Bytes& in, std::vector<BodyId>& ids, std::vector<SpringId>& springs) {
-    const BodyId id = ids.empty() ? BodyId{} : ids[in.below(static_cast<std::uint32_t>(ids.size()))];
-    switch (in.below(24)) {
+void act(World& world, fuzz::Bytes& in, Made& made) {
+    std::vector<BodyId>& ids = made.bodies;
+    std::vector<SpringId>& springs = made.springs;
+    const BodyId id = anyOf(ids, in);
+    switch (in.below(30)) {
         case 0:
         case 1:
         case 2:
@@ -70,7 +118,7 @@ void act(World& world, fuzz::Bytes& in, std::vector<BodyId>& ids, std::vector<Sp
             return world.setConstantTorque(id, in.vector(10));
         case 17: {
             SpringDescription d{.a = id, .stiffness = std::abs(in.number(1e5)), .damping = std::abs(in.number(100))};
-            if (in.below(2) == 0 && !ids.empty()) d.b = ids[in.below(static_cast<std::uint32_t>(ids.size()))];
+            if (in.below(2) == 0 && !ids.empty()) d.b = anyOf(ids, in);
             springs.push_back(world.addSpring(d));
             return;
         }
@@ -89,8 +137,21 @@ void act(World& world, fuzz::Bytes& in, std::vector<BodyId>& ids, std::vector<Sp
         case 21:
             return setPair(world, in);
         case 22:
-            if (!springs.empty()) world.removeSpring(springs[in.below(static_cast<std::uint32_t>(springs.size()))]);
-            return;
+            return world.removeSpring(anyOf(springs, in));
+        case 23:
+        case 24:
+            return addJoint(world, in, made);
+        case 25:
+            return world.removeJoint(anyOf(made.joints, in));
+        case 26:
+            return world.setJointMotor(anyOf(made.joints, in), {in.number(10), std::abs(in.number(100))});
+        case 27: {
+            const JointId joint = anyOf(made.joints, in);
+            const double lower = in.number(2);
+            return world.setJointLimits(joint, lower, lower + std::abs(in.number(1)));
+        }
+        case 28:
+            return travel(world, in, made);
         default:
             world.step();
     }
@@ -106,11 +167,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     in.setRange(in.below(2) == 0 ? fuzz::Range::usual : fuzz::Range::any);
     world.setChecks(in.range() == fuzz::Range::usual ? Checks::on : Checks::state);
     world.setEventLevel(EventLevel::all);
-    std::vector<BodyId> ids;
-    std::vector<SpringId> springs;
+    Made made;
     while (!in.empty()) {
         try {
-            act(world, in, ids, springs);
+            act(world, in, made);
         } catch (const InputError&) {
             // Bad arguments are part of the game; the world must be as it was, which the checks of the next step show.
         }

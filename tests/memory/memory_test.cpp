@@ -113,6 +113,24 @@ TEST(Rollback, SavingIntoTheSameBufferTakesNoMemoryForTheState) {
     EXPECT_LE(heap().allocations - before, 4);
 }
 
+TEST(Rollback, KeepingAndLoadingMomentsTakesNothingFromTheHeap) {
+    SceneRun run(builtInScene("wall:10"), settingsFor(builtInScene("wall:10")));
+    std::vector<Moment> ring(10);
+    const auto go = [&](std::size_t steps) {
+        for (std::size_t i = 0; i < steps; ++i) {
+            run.world().keep(ring[i % ring.size()]);
+            run.world().step();
+        }
+    };
+    go(100);
+    const std::int64_t before = heap().allocations;
+    for (int i = 0; i < 3; ++i) {
+        run.world().load(ring[0]);
+        go(10);
+    }
+    EXPECT_EQ(heap().allocations - before, 0);
+}
+
 TEST(Memory, IsGivenBackWithTheWorld) {
     const auto live = [] {
         const std::int64_t before = heap().bytes;

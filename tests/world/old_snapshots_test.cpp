@@ -126,6 +126,15 @@ TEST(OldSnapshots, OfEveryVersionSayWhatTheySaidWhenWritten) {
     }
 }
 
+TEST(OldSnapshots, SettingsThatTheyLackMeanWhatTheWorldDidWithoutThem) {
+    for (std::uint32_t version = 1; version <= 3; ++version) {
+        const World world = World::restore(bytesOf(contentOf(placeOf(version, "bin"))));
+        EXPECT_EQ(world.settings().correction.spread_levels, 0) << "overlaps were not spread";
+        EXPECT_FALSE(world.settings().integration.exact_flight);
+    }
+    EXPECT_EQ(World::restore(World().save()).settings().correction.spread_levels, 8) << "what is there is read";
+}
+
 TEST(OldSnapshots, OfEveryVersionGoOn) {
     for (std::uint32_t version = 1; version <= snapshot_version; ++version) {
         World world = World::restore(bytesOf(contentOf(placeOf(version, "bin"))));
