@@ -1,6 +1,7 @@
 /// @file Numbers from the bytes that the fuzzer gives.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "cairn/settings.h"
 #include "cairn/shape.h"
 
 namespace cairn::fuzz {
@@ -17,6 +19,17 @@ namespace cairn::fuzz {
 /// Ends the program where the fuzzer must notice.
 inline void require(bool fulfilled) {
     if (!fulfilled) std::abort();
+}
+
+/// Settings may allow a step any number of iterations, and some batches take millions; one thread and a few do here.
+inline void boundWork(Settings& settings) {
+    constexpr double most = 100;
+    ResolutionSettings& r = settings.resolution;
+    for (double* iterations : {&r.global_iterations, &r.shock_iterations}) {
+        *iterations = *iterations == 0 ? most : std::min(*iterations, most);
+    }
+    for (std::int64_t* sweeps : {&r.sweeps, &r.sweep_limit}) *sweeps = std::min<std::int64_t>(*sweeps, 100);
+    settings.parallel.threads = 1;
 }
 
 /// What the numbers are like: those of a usual scene, or anything.

@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         fuzz::require(formatScene(parseScene(written, "written")) == written);
         if (scene.bodies.size() > 200) return 0;
         Settings settings = settingsFor(scene);
-        settings.parallel.threads = 1;
+        fuzz::boundWork(settings);
         SceneRun run(scene, settings);
         run.world().setChecks(Checks::on);
         for (int i = 0; i < 2; ++i) run.step();

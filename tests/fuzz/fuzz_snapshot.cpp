@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         World world = World::restore(bytes);
         fuzz::require(World::restore(world.save()).save() == world.save());
         Settings settings = world.settings();
-        settings.parallel.threads = 1;
+        fuzz::boundWork(settings);
         world.setSettings(settings);
         if (world.bodyCount() > 200) return 0;
         for (int i = 0; i < 2; ++i) world.step();
