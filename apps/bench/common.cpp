@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <numeric>
@@ -17,6 +18,18 @@ namespace cairn::bench {
 namespace {
 
 constexpr std::string_view heavy = "heavy:";
+
+double processorMilliseconds() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+/// How many programs wanted a processor in the last minute; with more than there are cores times are too long.
+double loadAverage() {
+    double load = 0;
+    return getloadavg(&load, 1) == 1 ? load : 0;
+}
 
 /// The day, in UTC.
 std::string today() {
@@ -45,6 +58,19 @@ Scene heavyScene(const std::string& name) {
 }
 
 }  // namespace
+
+SettingOverrides combined(SettingOverrides all, const Variant& variant) {
+    if (variant.preset) all.preset = variant.preset;
+    all.fields.insert(all.fields.end(), variant.fields.begin(), variant.fields.end());
+    return all;
+}
+
+Stopwatch::Stopwatch() : wall_(std::chrono::steady_clock::now()), processor_ms_(processorMilliseconds()) {}
+
+Times Stopwatch::read() const {
+    const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - wall_;
+    return {wall.count(), processorMilliseconds() - processor_ms_};
+}
 
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
@@ -78,6 +104,7 @@ Json originOf(const std::string& suite, Extent extent) {
             {"version", version},
             {"date", today()},
             {"machine", {{"processor", machine.processor}, {"cores", machine.cores}, {"system", machine.system}}},
+            {"load_average", loadAverage()},
             {"compiler", machine.compiler},
             {"flags", CAIRN_BENCH_FLAGS}};
 }

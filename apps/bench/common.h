@@ -1,8 +1,10 @@
 /// @file What the suites of `cairn bench` share: progress, medians, and where figures come from.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,12 +30,33 @@ enum class Extent {
 struct Variant {
     std::string name;
     std::vector<std::pair<std::string, std::string>> fields;  ///< added to the overrides of all
+    std::optional<Preset> preset{};                           ///< in place of that of all
 };
+
+/// What a variant changes, on top of what is changed for all.
+SettingOverrides combined(SettingOverrides all, const Variant& variant);
 
 /// What a suite found.
 struct Outcome {
     std::string table;  ///< for the terminal
     Json json;          ///< origin, suite and entries
+};
+
+/// Time that has passed.
+struct Times {
+    double wall_ms = 0;
+    double processor_ms = 0;  ///< that the threads of this program ran; on a busy machine less than the wall time
+};
+
+/// Measures from its making on.
+class Stopwatch {
+  public:
+    Stopwatch();
+    Times read() const;
+
+  private:
+    std::chrono::steady_clock::time_point wall_;
+    double processor_ms_;
 };
 
 /// The middle value; of an even number the mean of the two in the middle. @param values not empty

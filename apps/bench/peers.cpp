@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "quality.h"
@@ -19,6 +18,7 @@ struct Entry {
     std::string scene;
     std::string engine;
     std::vector<double> step_ms;  ///< per simulation step, median of the repetitions
+    double processor_ms = 0;      ///< of a simulation step on average, median of the repetitions
     Quality quality;
     std::size_t asleep = 0;  ///< at the end
 };
@@ -35,7 +35,8 @@ int stepsPerFrame(double steps_per_second) {
 /// Wall times and poses of a run.
 struct Run {
     std::vector<double> step_ms;
-    Trajectory trajectory;  ///< empty unless asked for
+    double processor_ms = 0;  ///< of all simulation steps
+    Trajectory trajectory;    ///< empty unless asked for
     std::size_t asleep = 0;
 };
 
@@ -63,24 +64,25 @@ class Runner {
         for (std::size_t i = 0; i < frames_; ++i) {
             progress(static_cast<double>(i) / static_cast<double>(frames_));
             Frame frame;
-            double ms = timed(*engine, steps_ - 1);
+            const Times times = timed(*engine, steps_ - 1);
             if (poses == Poses::keep) engine->poses(frame.before);
-            ms += timed(*engine, 1);
+            const Times last = timed(*engine, 1);
             if (poses == Poses::keep) {
                 engine->poses(frame.poses);
                 result.trajectory.frames.push_back(std::move(frame));
             }
-            result.step_ms.push_back(ms);
+            result.step_ms.push_back(times.wall_ms + last.wall_ms);
+            result.processor_ms += times.processor_ms + last.processor_ms;
         }
         result.asleep = engine->asleep();
         return result;
     }
 
   private:
-    static double timed(Engine& engine, int steps) {
-        const auto begin = std::chrono::steady_clock::now();
+    static Times timed(Engine& engine, int steps) {
+        const Stopwatch stopwatch;
         for (int i = 0; i < steps; ++i) engine.step();
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+        return stopwatch.read();
     }
 
     const Scene& scene_;
@@ -105,6 +107,7 @@ std::vector<Entry> compare(const std::string& name, const std::vector<EngineKind
     const std::size_t repetitions = options.extent == Extent::quick ? 1 : options.repetitions;
     std::vector<Entry> entries(engines.size());
     std::vector<std::vector<std::vector<double>>> times(engines.size());
+    std::vector<std::vector<double>> processor_ms(engines.size());
     const auto all = static_cast<double>(repetitions * engines.size());
     for (std::size_t repetition = 0; repetition < repetitions; ++repetition) {
         for (std::size_t i = 0; i < engines.size(); ++i) {
@@ -114,11 +117,18 @@ std::vector<Entry> compare(const std::string& name, const std::vector<EngineKind
             const Run run = runner.run(engines[i], repetition == 0 ? Poses::keep : Poses::skip,
                                        [&](double part) { progress((done + part) / all, what); });
             times[i].push_back(run.step_ms);
+            processor_ms[i].push_back(run.processor_ms / static_cast<double>(runner.frames()));
             if (repetition > 0) continue;
-            entries[i] = {name, engines[i].name, {}, measureQuality(scene, runner.rigid(), run.trajectory), run.asleep};
+            entries[i].scene = name;
+            entries[i].engine = engines[i].name;
+            entries[i].quality = measureQuality(scene, runner.rigid(), run.trajectory);
+            entries[i].asleep = run.asleep;
         }
     }
-    for (std::size_t i = 0; i < engines.size(); ++i) entries[i].step_ms = medians(times[i]);
+    for (std::size_t i = 0; i < engines.size(); ++i) {
+        entries[i].step_ms = medians(times[i]);
+        entries[i].processor_ms = median(processor_ms[i]);
+    }
     return entries;
 }
 
@@ -130,9 +140,7 @@ std::vector<EngineKind> chosenEngines(const PeersOptions& options) {
         if (name == "cairn") {
             engines.push_back(cairnEngine(name, options.overrides, options.threads));
             for (const Variant& variant : options.variants) {
-                SettingOverrides all = options.overrides;
-                all.fields.insert(all.fields.end(), variant.fields.begin(), variant.fields.end());
-                engines.push_back(cairnEngine(variant.name, all, options.threads));
+                engines.push_back(cairnEngine(variant.name, combined(options.overrides, variant), options.threads));
             }
         } else if (name == "bullet") {
             engines.push_back(bulletEngine());
@@ -156,6 +164,7 @@ Json valuesOf(const Entry& entry) {
     const Quality& q = entry.quality;
     return {{"average_ms", average(entry.step_ms)},
             {"worst_ms", largest(entry.step_ms)},
+            {"processor_ms", entry.processor_ms},
             {"largest_overlap_mm", 1e3 * q.largest_overlap},
             {"mean_overlap_mm", 1e3 * q.mean_overlap},
             {"resting_largest_overlap_mm", 1e3 * q.resting_largest},
@@ -170,24 +179,24 @@ Json valuesOf(const Entry& entry) {
 }
 
 std::string tableOf(const std::vector<Entry>& entries) {
-    std::string text = fmt::format(
-        "{:<11} {:<14} {:>9} {:>9} {:>7}  {:>8} {:>7} {:>8} {:>7}  {:>8} {:>6} {:>6} {:>5} {:>8} {:>9}\n", "", "",
-        "average", "worst", "to", "largest", "mean", "at rest", "mean", "energy", "", "", "", "highest", "drift");
-    text += fmt::format(
-        "{:<11} {:<14} {:>9} {:>9} {:>7}  {:>8} {:>7} {:>8} {:>7}  {:>8} {:>6} {:>6} {:>5} {:>8} {:>9}\n", "scene",
-        "engine", "ms", "ms", "first", "mm", "mm", "mm", "mm", "gain %", "moving", "asleep", "lost", "m", "mm");
+    constexpr const char* head =
+        "{:<11} {:<19} {:>9} {:>9} {:>9} {:>6}  {:>8} {:>7} {:>8} {:>7}  {:>8} {:>6} {:>6} {:>5} {:>8} {:>9}\n";
+    std::string text = fmt::format(fmt::runtime(head), "", "", "average", "worst", "processor", "to", "largest", "mean",
+                                   "at rest", "mean", "energy", "", "", "", "highest", "drift");
+    text += fmt::format(fmt::runtime(head), "scene", "engine", "ms", "ms", "ms", "first", "mm", "mm", "mm", "mm",
+                        "gain %", "moving", "asleep", "lost", "m", "mm");
     double first = 0;
     std::string scene;
     for (const Entry& entry : entries) {
-        const double ms = average(entry.step_ms);
-        if (entry.scene != scene) first = ms;
+        if (entry.scene != scene) first = entry.processor_ms;
         const Quality& q = entry.quality;
         text += fmt::format(
-            "{:<11} {:<14} {:>9.3f} {:>9.3f} {:>7.2f}  {:>8.3f} {:>7.3f} {:>8.3f} {:>7.3f}  {:>8.3f} {:>6} {:>6} {:>5} "
-            "{:>8.3f} {:>9.3f}\n",
-            entry.scene == scene ? "" : entry.scene, entry.engine, ms, largest(entry.step_ms),
-            first > 0 ? ms / first : 0, 1e3 * q.largest_overlap, 1e3 * q.mean_overlap, 1e3 * q.resting_largest,
-            1e3 * q.resting_mean, 1e2 * q.energy_gain_part, q.moving, entry.asleep, q.lost, q.highest, 1e3 * q.drift);
+            "{:<11} {:<19} {:>9.3f} {:>9.3f} {:>9.3f} {:>6.2f}  {:>8.3f} {:>7.3f} {:>8.3f} {:>7.3f}  {:>8.3f} {:>6} "
+            "{:>6} {:>5} {:>8.3f} {:>9.3f}\n",
+            entry.scene == scene ? "" : entry.scene, entry.engine, average(entry.step_ms), largest(entry.step_ms),
+            entry.processor_ms, first > 0 ? entry.processor_ms / first : 0, 1e3 * q.largest_overlap,
+            1e3 * q.mean_overlap, 1e3 * q.resting_largest, 1e3 * q.resting_mean, 1e2 * q.energy_gain_part, q.moving,
+            entry.asleep, q.lost, q.highest, 1e3 * q.drift);
         scene = entry.scene;
     }
     return text;

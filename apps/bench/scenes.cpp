@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
@@ -49,12 +48,14 @@ class Measurement {
         result.steps_per_frame = static_cast<std::size_t>(run.stepsPerSimulationStep());
         std::vector<double> step_ms;
         std::vector<double> energies;
+        double processor_ms = 0;
         for (std::size_t i = 0; i < frames; ++i) {
             progress(static_cast<double>(i) / static_cast<double>(frames));
-            const auto begin = std::chrono::steady_clock::now();
+            const Stopwatch stopwatch;
             const Statistics step = run.simulationStep();
-            const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - begin;
-            step_ms.push_back(passed.count());
+            const Times times = stopwatch.read();
+            step_ms.push_back(times.wall_ms);
+            processor_ms += times.processor_ms;
             energies.push_back(run.world().kineticEnergy());
             result.total.add(step);
             result.last = step;
@@ -65,6 +66,7 @@ class Measurement {
         result.first_still = firstStill(energies);
         if (times_.empty()) result_ = result;
         times_.push_back(std::move(step_ms));
+        processor_ms_.push_back(processor_ms / static_cast<double>(frames));
     }
 
     Json json() const {
@@ -77,6 +79,7 @@ class Measurement {
         const double steps = frames * static_cast<double>(result_.steps_per_frame);
         Json values = {{"average_ms", average(step_ms)},
                        {"worst_ms", largest(step_ms)},
+                       {"processor_ms", median(processor_ms_)},
                        {"contacts", static_cast<double>(result_.total.contacts) / steps},
                        {"iterations",
                         static_cast<double>(result_.total.global_iterations + result_.total.shock_iterations) / steps},
@@ -115,6 +118,7 @@ class Measurement {
 
     Configuration what_;
     std::vector<std::vector<double>> times_;  ///< [repetition × simulation step, ms]
+    std::vector<double> processor_ms_;        ///< [repetition] of a simulation step on average
     Result result_;                           ///< of the first repetition
 };
 
@@ -126,8 +130,7 @@ Configuration configure(const std::string& name, const Variant& variant, std::in
     if (made.is_pile) made.scene.duration = pile_seconds;
     const double longest = options.extent == Extent::quick ? std::min(options.longest, quick_seconds) : options.longest;
     made.scene = shortened(std::move(made.scene), longest);
-    SettingOverrides all = options.overrides;
-    all.fields.insert(all.fields.end(), variant.fields.begin(), variant.fields.end());
+    SettingOverrides all = combined(options.overrides, variant);
     all.fields.emplace_back("threads", fmt::format("{}", threads));
     if (made.is_pile) all.fields.emplace_back("sleeping", "false");
     made.settings = settingsFor(made.scene, all);
@@ -148,23 +151,26 @@ std::vector<Measurement> allMeasurements(const std::string& scene, const ScenesO
 }
 
 std::string tableOf(const Json& entries) {
-    std::string text = fmt::format(
-        "{:<30} {:>6} {:>9} {:>9}  {:>9} {:>9} {:>9}  {:>8} {:>9}  {:>8} {:>7} {:>8} {:>6}\n", "", "", "average",
-        "worst", "detection", "correct.", "resolut.", "contacts", "iterat.", "largest", "mean", "at rest", "");
-    text += fmt::format("{:<30} {:>6} {:>9} {:>9}  {:>9} {:>9} {:>9}  {:>8} {:>9}  {:>8} {:>7} {:>8} {:>6}\n", "scene",
-                        "bodies", "ms", "ms", "ms", "ms", "ms", "a step", "a step", "mm", "mm", "mm", "asleep");
+    std::string text =
+        fmt::format("{:<37} {:>6} {:>9} {:>9} {:>9}  {:>9} {:>9} {:>9}  {:>8} {:>9}  {:>8} {:>7} {:>8} {:>6}\n", "", "",
+                    "average", "worst", "processor", "detection", "correct.", "resolut.", "contacts", "iterat.",
+                    "largest", "mean", "at rest", "");
+    text += fmt::format("{:<37} {:>6} {:>9} {:>9} {:>9}  {:>9} {:>9} {:>9}  {:>8} {:>9}  {:>8} {:>7} {:>8} {:>6}\n",
+                        "scene", "bodies", "ms", "ms", "ms", "ms", "ms", "ms", "a step", "a step", "mm", "mm", "mm",
+                        "asleep");
     for (const Json& entry : entries) {
         const auto value = [&](const char* name) { return entry.at("values").at(name).get<double>(); };
         const auto stage = [&](const char* name) { return entry.at("stages_ms").at(name).get<double>(); };
         text += fmt::format(
-            "{:<30} {:>6} {:>9.3f} {:>9.3f}  {:>9.3f} {:>9.3f} {:>9.3f}  {:>8.0f} {:>9.0f}  {:>8.3f} {:>7.3f} {:>8.3f} "
+            "{:<37} {:>6} {:>9.3f} {:>9.3f} {:>9.3f}  {:>9.3f} {:>9.3f} {:>9.3f}  {:>8.0f} {:>9.0f}  {:>8.3f} {:>7.3f} "
+            "{:>8.3f} "
             "{:>6.0f}\n",
             entry.at("name").get<std::string>(), entry.at("bodies").get<std::size_t>(), value("average_ms"),
-            value("worst_ms"), stage("detection"), stage("correction"), stage("resolution"), value("contacts"),
-            value("iterations"), value("largest_overlap_mm"), value("mean_overlap_mm"),
+            value("worst_ms"), value("processor_ms"), stage("detection"), stage("correction"), stage("resolution"),
+            value("contacts"), value("iterations"), value("largest_overlap_mm"), value("mean_overlap_mm"),
             value("resting_largest_overlap_mm"), value("asleep"));
         if (!entry.at("values").contains("settled_ms")) continue;
-        text += fmt::format("{:<30} falling {:.3f} ms in the first {:.2f} s, settled {:.3f} ms: {:.1f} %\n", "",
+        text += fmt::format("{:<37} falling {:.3f} ms in the first {:.2f} s, settled {:.3f} ms: {:.1f} %\n", "",
                             value("falling_ms"), value("falling_seconds"), value("settled_ms"),
                             100 * value("settled_to_falling"));
     }

@@ -4,7 +4,9 @@
 
 #include <memory>
 
+#include "bench/kernels.h"
 #include "bench/peers.h"
+#include "bench/scaling.h"
 #include "bench/scenes.h"
 #include "bench_progress.h"
 #include "commands.h"
@@ -56,58 +58,29 @@ int runSuite(const SuiteArguments& arguments, const Run& run) {
     }
 }
 
-/// What the suites that simulate scenes are asked.
-struct SceneArguments {
-    std::vector<std::string> scenes;
+/// How Cairn is set, once or in several ways side by side.
+struct SettingArguments {
     std::vector<std::string> variants;
+    std::vector<std::string> resolvers;
     std::string preset;
     std::vector<std::string> fields;
     std::size_t repetitions = 3;
+
+    SettingOverrides overrides() const;
+    std::vector<bench::Variant> allVariants() const;
+};
+
+/// What the suites that simulate scenes are asked.
+struct SceneArguments {
+    std::vector<std::string> scenes;
     double duration = longest_duration;
-
-    SettingOverrides overrides() const {
-        SettingOverrides made;
-        if (!preset.empty()) made.preset = preset == "accuracy" ? Preset::accuracy : Preset::performance;
-        for (const std::string& field : fields) made.fields.push_back(splitField(field));
-        return made;
-    }
 };
 
-void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
-    command
-        .add_option("--scenes", arguments.scenes,
-                    "Scenes, files and heavy:RATIO; default: those of docs/performance.md")
-        ->delimiter(',');
-    command.add_option("--variant", arguments.variants, "Cairn once more with other settings beside it. Repeatable")
-        ->type_name("NAME:FIELD=VALUE,...")
-        ->allow_extra_args(false);
-    command.add_option("--preset", arguments.preset, "Of Cairn; default: the scene's, or else performance")
-        ->check(CLI::IsMember({"performance", "accuracy"}));
-    command.add_option("--set", arguments.fields, "Set a field of Cairn's settings. Repeatable")
-        ->type_name("FIELD=VALUE")
-        ->allow_extra_args(false);
-    command.add_option("--repeat", arguments.repetitions, "Runs of each, in turns; default: 3")
-        ->check(CLI::Range(1, most_repetitions));
-    command.add_option("--duration", arguments.duration, "End the scenes after S seconds")
-        ->type_name("S")
-        ->check(CLI::Range(1e-3, longest_duration));
+Preset presetNamed(const std::string& name) {
+    if (name == "accuracy") return Preset::accuracy;
+    if (name == "performance") return Preset::performance;
+    throw InputError(fmt::format("there is no preset '{}'; the presets are performance and accuracy", name));
 }
-
-struct PeersArguments {
-    SuiteArguments suite;
-    SceneArguments scene;
-    std::vector<std::string> engines;
-    double steps_per_second = 240;
-    std::int64_t threads = 1;
-    bool awake = false;
-};
-
-struct ScenesArguments {
-    SuiteArguments suite;
-    SceneArguments scene;
-    std::optional<double> steps_per_second;
-    std::vector<std::int64_t> threads = {1};
-};
 
 /// NAME:FIELD=VALUE[,FIELD=VALUE…]
 bench::Variant parseVariant(const std::string& text) {
@@ -117,27 +90,108 @@ bench::Variant parseVariant(const std::string& text) {
             "--variant is given '{}'; it must be NAME:FIELD=VALUE, for example sweeps20:sweep_limit=20", text));
     }
     bench::Variant variant{text.substr(0, colon), {}};
-    for (const std::string& field : CLI::detail::split(text.substr(colon + 1), ',')) {
-        variant.fields.push_back(splitField(field));
+    for (const std::string& part : CLI::detail::split(text.substr(colon + 1), ',')) {
+        const auto [field, value] = splitField(part);
+        if (field == "preset") {
+            variant.preset = presetNamed(value);
+        } else {
+            variant.fields.emplace_back(field, value);
+        }
     }
     return variant;
 }
 
-std::vector<bench::Variant> parseVariants(const std::vector<std::string>& texts) {
-    std::vector<bench::Variant> variants;
-    for (const std::string& text : texts) variants.push_back(parseVariant(text));
-    return variants;
+SettingOverrides SettingArguments::overrides() const {
+    SettingOverrides made;
+    if (!preset.empty()) made.preset = presetNamed(preset);
+    for (const std::string& field : fields) made.fields.push_back(splitField(field));
+    return made;
 }
+
+std::vector<bench::Variant> SettingArguments::allVariants() const {
+    std::vector<bench::Variant> all;
+    for (const std::string& resolver : resolvers) all.push_back({resolver, {{"resolution", resolver}}});
+    for (const std::string& text : variants) all.push_back(parseVariant(text));
+    return all;
+}
+
+void addRepeatOption(CLI::App& command, std::size_t& repetitions) {
+    command.add_option("--repeat", repetitions, "Runs of each, in turns; default: 3")
+        ->check(CLI::Range(1, most_repetitions));
+}
+
+void addSettingOptions(CLI::App& command, SettingArguments& arguments) {
+    command.add_option("--resolver", arguments.resolvers, "Cairn once more with each of these resolutions beside it")
+        ->type_name("NAME,...")
+        ->delimiter(',');
+    command
+        .add_option("--variant", arguments.variants,
+                    "Cairn once more with other settings (or preset=...) beside it. Repeatable")
+        ->type_name("NAME:FIELD=VALUE,...")
+        ->allow_extra_args(false);
+    command.add_option("--preset", arguments.preset, "Of Cairn; default: the scene's, or else performance")
+        ->check(CLI::IsMember({"performance", "accuracy"}));
+    command.add_option("--set", arguments.fields, "Set a field of Cairn's settings. Repeatable")
+        ->type_name("FIELD=VALUE")
+        ->allow_extra_args(false);
+    addRepeatOption(command, arguments.repetitions);
+}
+
+void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
+    command
+        .add_option("--scenes", arguments.scenes,
+                    "Scenes, files and heavy:RATIO; default: those of docs/performance.md")
+        ->delimiter(',');
+    command.add_option("--duration", arguments.duration, "End the scenes after S seconds")
+        ->type_name("S")
+        ->check(CLI::Range(1e-3, longest_duration));
+}
+
+void addThreadsOption(CLI::App& command, std::vector<std::int64_t>& threads, std::string_view usual) {
+    command.add_option("--threads", threads, fmt::format("One number or more; default: {}", usual))->delimiter(',');
+}
+
+struct PeersArguments {
+    SuiteArguments suite;
+    SettingArguments settings;
+    SceneArguments scene;
+    std::vector<std::string> engines;
+    double steps_per_second = 240;
+    std::int64_t threads = 1;
+    bool awake = false;
+};
+
+struct ScenesArguments {
+    SuiteArguments suite;
+    SettingArguments settings;
+    SceneArguments scene;
+    std::optional<double> steps_per_second;
+    std::vector<std::int64_t> threads = {1};
+};
+
+struct ScalingArguments {
+    SuiteArguments suite;
+    SettingArguments settings;
+    std::vector<std::int64_t> sizes;
+    std::vector<std::int64_t> threads = {1, 2};
+};
+
+struct KernelsArguments {
+    SuiteArguments suite;
+    std::string filter;
+    std::size_t repetitions = 3;
+    double seconds = 0.1;
+};
 
 bench::PeersOptions peersOptions(const PeersArguments& arguments) {
     bench::PeersOptions options;
     options.scenes = arguments.scene.scenes;
     options.engines = arguments.engines;
-    options.overrides = arguments.scene.overrides();
-    options.variants = parseVariants(arguments.scene.variants);
+    options.overrides = arguments.settings.overrides();
+    options.variants = arguments.settings.allVariants();
     options.steps_per_second = arguments.steps_per_second;
     options.threads = arguments.threads;
-    options.repetitions = arguments.scene.repetitions;
+    options.repetitions = arguments.settings.repetitions;
     options.sleeping = !arguments.awake;
     options.longest = arguments.scene.duration;
     options.extent = arguments.suite.extent();
@@ -149,6 +203,7 @@ void addPeersSuite(CLI::App& bench, int& exit_code) {
         bench.add_subcommand("peers", "Compare with Bullet and ODE: time and quality in the same scenes");
     auto arguments = std::make_shared<PeersArguments>();
     addSceneOptions(*command, arguments->scene);
+    addSettingOptions(*command, arguments->settings);
     command->add_option("--engines", arguments->engines, "Of cairn, bullet and ode; default: all")->delimiter(',');
     command->add_option("--steps-per-second", arguments->steps_per_second, "Of every engine; default: 240");
     command->add_option("--threads", arguments->threads, "Of Cairn; default: 1, as the peers have");
@@ -167,17 +222,18 @@ void addScenesSuite(CLI::App& bench, int& exit_code) {
     CLI::App* command = bench.add_subcommand("scenes", "Measure Cairn's scenes: time by stage, and overlaps");
     auto arguments = std::make_shared<ScenesArguments>();
     addSceneOptions(*command, arguments->scene);
+    addSettingOptions(*command, arguments->settings);
     command->add_option("--steps-per-second", arguments->steps_per_second, "Default: the preset's");
-    command->add_option("--threads", arguments->threads, "One number or more, such as 1,2; default: 1")->delimiter(',');
+    addThreadsOption(*command, arguments->threads, "1");
     addSuiteOptions(*command, arguments->suite);
     command->callback([arguments, &exit_code] {
         bench::ScenesOptions options;
         options.scenes = arguments->scene.scenes;
-        options.overrides = arguments->scene.overrides();
+        options.overrides = arguments->settings.overrides();
         options.overrides.steps_per_second = arguments->steps_per_second;
-        options.variants = parseVariants(arguments->scene.variants);
+        options.variants = arguments->settings.allVariants();
         options.threads = arguments->threads;
-        options.repetitions = arguments->scene.repetitions;
+        options.repetitions = arguments->settings.repetitions;
         options.longest = arguments->scene.duration;
         options.extent = arguments->suite.extent();
         exit_code = runSuite(arguments->suite, [&](const bench::Progress& progress) {
@@ -187,10 +243,58 @@ void addScenesSuite(CLI::App& bench, int& exit_code) {
     });
 }
 
+void addScalingSuite(CLI::App& bench, int& exit_code) {
+    CLI::App* command = bench.add_subcommand("scaling", "Measure how time and memory grow from 1000 to 100000 bodies");
+    auto arguments = std::make_shared<ScalingArguments>();
+    command->add_option("--sizes", arguments->sizes, "Bodies, about; default: 1000,3000,10000,30000,100000")
+        ->delimiter(',');
+    addThreadsOption(*command, arguments->threads, "1,2");
+    addSettingOptions(*command, arguments->settings);
+    addSuiteOptions(*command, arguments->suite);
+    command->callback([arguments, &exit_code] {
+        bench::ScalingOptions options;
+        options.sizes = arguments->sizes;
+        options.overrides = arguments->settings.overrides();
+        options.variants = arguments->settings.allVariants();
+        options.threads = arguments->threads;
+        options.repetitions = arguments->settings.repetitions;
+        options.extent = arguments->suite.extent();
+        exit_code = runSuite(arguments->suite, [&](const bench::Progress& progress) {
+            options.progress = progress;
+            return bench::runScaling(options);
+        });
+    });
+}
+
+void addKernelsSuite(CLI::App& bench, int& exit_code) {
+    CLI::App* command = bench.add_subcommand("kernels", "Measure the inner loops alone: ns per contact, pair or body");
+    auto arguments = std::make_shared<KernelsArguments>();
+    command->add_option("--filter", arguments->filter, "Only kernels whose name has a match of this")
+        ->type_name("REGEX");
+    command->add_option("--seconds", arguments->seconds, "Least time of a repetition; default: 0.1")
+        ->type_name("S")
+        ->check(CLI::Range(1e-3, 100.0));
+    addRepeatOption(*command, arguments->repetitions);
+    addSuiteOptions(*command, arguments->suite);
+    command->callback([arguments, &exit_code] {
+        bench::KernelsOptions options;
+        options.filter = arguments->filter;
+        options.repetitions = arguments->repetitions;
+        options.seconds = arguments->seconds;
+        options.extent = arguments->suite.extent();
+        exit_code = runSuite(arguments->suite, [&](const bench::Progress& progress) {
+            options.progress = progress;
+            return bench::runKernels(options);
+        });
+    });
+}
+
 }  // namespace
 
 void addBenchSuites(CLI::App& bench, int& exit_code) {
+    addKernelsSuite(bench, exit_code);
     addScenesSuite(bench, exit_code);
+    addScalingSuite(bench, exit_code);
     addPeersSuite(bench, exit_code);
 }
 

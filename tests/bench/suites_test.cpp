@@ -1,9 +1,12 @@
 /// @file The suites run, say what they measured, and refuse what they cannot do.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
+#include "bench/kernels.h"
 #include "bench/peers.h"
+#include "bench/scaling.h"
 #include "bench/scenes.h"
 
 namespace cairn::bench {
@@ -185,6 +188,90 @@ TEST(Scenes, CompareAFallingPileWithTheSettledOne) {
     EXPECT_GT(values.at("falling_ms"), 0);
     EXPECT_GT(values.at("settled_ms"), 0);
     EXPECT_EQ(values.at("asleep"), 0);
+}
+
+KernelsOptions quickKernels(const std::string& filter) {
+    KernelsOptions options;
+    options.filter = filter;
+    options.extent = Extent::quick;
+    options.progress = [](double, const std::string&) {};
+    return options;
+}
+
+TEST(Kernels, MeasureWhatWasAskedFor) {
+    try {
+        const Outcome outcome = runKernels(quickKernels("resolve_contact$|^correction/|sphere_box|^broad_phase/"));
+        EXPECT_EQ(namesOf(outcome.json.at("entries")),
+                  (std::set<std::string>{"resolution/resolve_contact", "correction/correct_contact",
+                                         "narrow_phase/sphere_box", "broad_phase/insert", "broad_phase/query",
+                                         "broad_phase/find_pairs"}));
+        for (const Json& entry : outcome.json.at("entries")) {
+            EXPECT_GT(entry.at("values").at("item_ns"), 0) << entry.at("name");
+        }
+        EXPECT_THROW(runKernels(quickKernels("nonsense")), InputError);
+        EXPECT_THROW(runKernels(quickKernels("(")), InputError);
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("install the Debian package"), std::string::npos) << error.what();
+    }
+}
+
+ScalingOptions quickScaling() {
+    ScalingOptions options;
+    options.sizes = {500};
+    options.threads = {1, 2};
+    options.extent = Extent::quick;
+    options.progress = [](double, const std::string&) {};
+    return options;
+}
+
+TEST(Scaling, BeginsEveryNumberOfThreadsWithTheSameState) {
+    const Outcome outcome = runScaling(quickScaling());
+    EXPECT_EQ(namesOf(outcome.json.at("entries")),
+              (std::set<std::string>{"one/falling/500/threads1", "one/falling/500/threads2",
+                                     "many/falling/500/threads1", "many/falling/500/threads2"}));
+    const Json& one = entryOf(outcome.json, "one/falling/500/threads1");
+    EXPECT_EQ(one.at("state_hash"), entryOf(outcome.json, "one/falling/500/threads2").at("state_hash"));
+    EXPECT_GT(one.at("values").at("body_step_us"), 0);
+    EXPECT_GT(one.at("values").at("contacts_per_body"), 1);
+    EXPECT_GT(one.at("values").at("bytes_per_body"), 100);
+    EXPECT_EQ(one.at("values").at("growth"), 1);
+}
+
+TEST(Scaling, HeapsOfAllSizesAreEquallyDense) {
+    for (const char* layout : {"one", "many"}) {
+        const Scene small = scalingScene(layout, 1000);
+        const Scene large = scalingScene(layout, 10000);
+        const auto dynamic = [](const Scene& scene) {
+            return static_cast<double>(std::count_if(scene.bodies.begin(), scene.bodies.end(),
+                                                     [](const SceneBody& body) { return !body.fixed; }));
+        };
+        EXPECT_NEAR(dynamic(small), 1000, 100) << layout;
+        EXPECT_NEAR(dynamic(large), 10000, 1000) << layout;
+        // No two bodies begin in the same place, and none inside a wall.
+        SettingOverrides overrides;
+        overrides.fields = {{"correction", "none"}};
+        SceneRun run(small, settingsFor(small, overrides));
+        run.step();
+        EXPECT_LT(run.world().statistics().largest_overlap, 1e-4) << layout;
+    }
+    EXPECT_THROW(scalingScene("one", 0), InputError);
+    EXPECT_THROW(scalingScene("one", 2'000'000), InputError);
+}
+
+TEST(Scaling, RefusesWrongSettingsBeforeItBegins) {
+    ScalingOptions options = quickScaling();
+    options.variants = {{"wrong", {{"nonsense", "1"}}}};
+    EXPECT_THROW(runScaling(options), InputError);
+}
+
+TEST(Variants, ChangeFieldsAndPreset) {
+    SettingOverrides all;
+    all.preset = Preset::performance;
+    all.fields = {{"damping", "0"}};
+    const SettingOverrides made = combined(all, {"exact", {{"sweeps", "7"}}, Preset::accuracy});
+    EXPECT_EQ(made.preset, Preset::accuracy);
+    EXPECT_EQ(made.fields, (std::vector<std::pair<std::string, std::string>>{{"damping", "0"}, {"sweeps", "7"}}));
+    EXPECT_EQ(combined(all, {"plain", {}}).preset, Preset::performance);
 }
 
 }  // namespace
