@@ -60,31 +60,22 @@ class Runner {
     Run run(const EngineKind& kind, Poses poses, const std::function<void(double)>& progress) const {
         const std::unique_ptr<Engine> engine = kind.make(scene_, rigid_, options_);
         Run result;
-        result.trajectory.time_step = 1 / options_.steps_per_second;
         for (std::size_t i = 0; i < frames_; ++i) {
             progress(static_cast<double>(i) / static_cast<double>(frames_));
-            Frame frame;
-            const Times times = timed(*engine, steps_ - 1);
-            if (poses == Poses::keep) engine->poses(frame.before);
-            const Times last = timed(*engine, 1);
-            if (poses == Poses::keep) {
-                engine->poses(frame.poses);
-                result.trajectory.frames.push_back(std::move(frame));
-            }
-            result.step_ms.push_back(times.wall_ms + last.wall_ms);
-            result.processor_ms += times.processor_ms + last.processor_ms;
+            const Stopwatch stopwatch;
+            for (int k = 0; k < steps_; ++k) engine->step();
+            const Times times = stopwatch.read();
+            result.step_ms.push_back(times.wall_ms);
+            result.processor_ms += times.processor_ms;
+            if (poses == Poses::keep) engine->poses(result.trajectory.emplace_back());
         }
         result.asleep = engine->asleep();
         return result;
     }
 
-  private:
-    static Times timed(Engine& engine, int steps) {
-        const Stopwatch stopwatch;
-        for (int i = 0; i < steps; ++i) engine.step();
-        return stopwatch.read();
-    }
+    double timeStep() const { return 1 / options_.steps_per_second; }
 
+  private:
     const Scene& scene_;
     RigidScene rigid_;
     std::size_t frames_;
@@ -121,7 +112,7 @@ std::vector<Entry> compare(const std::string& name, const std::vector<EngineKind
             if (repetition > 0) continue;
             entries[i].scene = name;
             entries[i].engine = engines[i].name;
-            entries[i].quality = measureQuality(scene, runner.rigid(), run.trajectory);
+            entries[i].quality = measureQuality(scene, runner.rigid(), run.trajectory, runner.timeStep());
             entries[i].asleep = run.asleep;
         }
     }

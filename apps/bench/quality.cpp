@@ -73,17 +73,19 @@ class OverlapMeter {
     std::vector<std::uint8_t> gone_;  ///< per body; 1 = its pose was not finite once
 };
 
-/// Mechanical energy of poses whose velocities are differences, half a time step before the frame. For every scheme
-/// that adds gravity to a velocity and the velocity to a position, a body in free fall keeps exactly this energy.
-double energyOf(const RigidScene& scene, const Frame& frame, double time_step, const Vec3& gravity) {
+/// Mechanical energy in the middle of a simulation step, with the mean velocities of the step. Over a single time step
+/// the way by which an engine moves overlapping bodies apart would look like a velocity that nobody has.
+double energyOf(const RigidScene& scene, const std::vector<Pose>& before, const std::vector<Pose>& after,
+                const Vec3& gravity) {
     double energy = 0;
     for (std::size_t i = 0; i < scene.bodies().size(); ++i) {
         const RigidBody& body = scene.bodies()[i];
-        const Pose& from = frame.before[i];
-        const Pose& to = frame.poses[i];
+        const Pose& from = before[i];
+        const Pose& to = after[i];
         if (body.fixed || !isSane(from) || !isSane(to)) continue;
-        const Vec3 v = (to.position - from.position) / time_step;
-        const Vec3 w = from.orientation.conjugate() * (rotationBetween(from.orientation, to.orientation) / time_step);
+        const Vec3 v = (to.position - from.position) * simulation_steps_per_second;
+        const Vec3 turn = rotationBetween(from.orientation, to.orientation);
+        const Vec3 w = from.orientation.conjugate() * (turn * simulation_steps_per_second);
         energy += 0.5 * body.mass * v.squaredNorm() + 0.5 * w.dot(body.principal_inertia.cwiseProduct(w)) -
                   body.mass * gravity.dot(0.5 * (from.position + to.position));
     }
@@ -120,35 +122,38 @@ std::vector<Pose> startPoses(const RigidScene& scene) {
 }
 
 /// Gains over the reference, which begins anew whenever gravity changes.
-void measureEnergy(const RigidScene& scene, const Trajectory& trajectory, Quality& quality) {
-    const double dt = trajectory.time_step;
-    Vec3 gravity = scene.gravityAt(0, dt);
+void measureEnergy(const RigidScene& scene, const Trajectory& trajectory, double time_step, Quality& quality) {
+    const std::vector<Pose> start = startPoses(scene);
+    Vec3 gravity = scene.gravityAt(0, time_step);
     double reference = startEnergyOf(scene, gravity);
-    double scale = reference - groundEnergyOf(scene, startPoses(scene), gravity);
-    for (std::size_t i = 0; i < trajectory.frames.size(); ++i) {
-        const Frame& frame = trajectory.frames[i];
-        const double gain = energyOf(scene, frame, dt, gravity) - reference;
-        quality.energy_gain = std::max(quality.energy_gain, gain);
-        if (scale > 0) quality.energy_gain_part = std::max(quality.energy_gain_part, gain / scale);
-        const double time = static_cast<double>(i + 1) / simulation_steps_per_second;
-        const Vec3& next = scene.gravityAt(time, dt);
+    double scale = reference - groundEnergyOf(scene, start, gravity);
+    for (std::size_t i = 0; i < trajectory.size(); ++i) {
+        const std::vector<Pose>& before = i == 0 ? start : trajectory[i - 1];
+        const double end = static_cast<double>(i + 1) / simulation_steps_per_second;
+        // No energy is kept while gravity changes.
+        if (scene.gravityAt(end - time_step, time_step) == gravity) {
+            const double gain = energyOf(scene, before, trajectory[i], gravity) - reference;
+            quality.energy_gain = std::max(quality.energy_gain, gain);
+            if (scale > 0) quality.energy_gain_part = std::max(quality.energy_gain_part, gain / scale);
+        }
+        const Vec3& next = scene.gravityAt(end, time_step);
         if (next == gravity) continue;
         gravity = next;
-        reference = energyOf(scene, frame, dt, gravity);
-        scale = reference - groundEnergyOf(scene, frame.poses, gravity);
+        reference = energyOf(scene, before, trajectory[i], gravity);
+        scale = reference - groundEnergyOf(scene, trajectory[i], gravity);
     }
 }
 
-std::size_t countMoving(const RigidScene& scene, const std::vector<Frame>& frames) {
+std::size_t countMoving(const RigidScene& scene, const Trajectory& frames) {
     const std::size_t back = std::min(moving_frames, frames.size() - 1);
     if (back == 0) return 0;
-    const Frame& earlier = frames[frames.size() - 1 - back];
+    const std::vector<Pose>& earlier = frames[frames.size() - 1 - back];
     const double time = static_cast<double>(back) / simulation_steps_per_second;
     std::size_t moving = 0;
     for (std::size_t i = 0; i < scene.bodies().size(); ++i) {
         if (scene.bodies()[i].fixed) continue;
-        const Pose& from = earlier.poses[i];
-        const Pose& to = frames.back().poses[i];
+        const Pose& from = earlier[i];
+        const Pose& to = frames.back()[i];
         const bool slow = (to.position - from.position).norm() <= moving_speed * time &&
                           rotationBetween(from.orientation, to.orientation).norm() <= turning_speed * time;
         if (!slow) ++moving;  // a pose that is not finite is not slow
@@ -190,20 +195,20 @@ void measureEnd(const RigidScene& scene, const std::vector<Pose>& poses, Quality
 
 }  // namespace
 
-Quality measureQuality(const Scene& scene, const RigidScene& rigid, const Trajectory& trajectory) {
+Quality measureQuality(const Scene& scene, const RigidScene& rigid, const Trajectory& trajectory, double time_step) {
     Quality quality;
     OverlapMeter meter(scene);
-    for (const Frame& frame : trajectory.frames) {
-        const Statistics& found = meter.measure(rigid, frame.poses);
+    for (const std::vector<Pose>& poses : trajectory) {
+        const Statistics& found = meter.measure(rigid, poses);
         quality.largest_overlap = std::max(quality.largest_overlap, found.largest_overlap);
         quality.mean_overlap += found.mean_overlap;
         quality.resting_largest = found.largest_overlap;
         quality.resting_mean = found.mean_overlap;
     }
-    quality.mean_overlap /= static_cast<double>(trajectory.frames.size());
-    measureEnergy(rigid, trajectory, quality);
-    quality.moving = countMoving(rigid, trajectory.frames);
-    measureEnd(rigid, trajectory.frames.back().poses, quality);
+    quality.mean_overlap /= static_cast<double>(trajectory.size());
+    measureEnergy(rigid, trajectory, time_step, quality);
+    quality.moving = countMoving(rigid, trajectory);
+    measureEnd(rigid, trajectory.back(), quality);
     return quality;
 }
 

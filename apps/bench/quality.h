@@ -7,17 +7,8 @@
 
 namespace cairn::bench {
 
-/// The poses at the end of a simulation step, and one time step earlier: velocities are their difference.
-struct Frame {
-    std::vector<Pose> before;
-    std::vector<Pose> poses;
-};
-
-/// A run as it is measured.
-struct Trajectory {
-    double time_step = 0;       ///< between Frame::before and Frame::poses [s]
-    std::vector<Frame> frames;  ///< one per simulation step of 1/30 s
-};
+/// A run as it is measured: the poses of all bodies at the end of each simulation step of 1/30 s.
+using Trajectory = std::vector<std::vector<Pose>>;
 
 /// What the poses tell. Overlaps are found by Cairn's narrow phase, whoever computed the poses.
 struct Quality {
@@ -34,6 +25,7 @@ struct Quality {
 };
 
 /// @pre the trajectory has a frame or more, each with a pose per body
-Quality measureQuality(const Scene& scene, const RigidScene& rigid, const Trajectory& trajectory);
+/// @param time_step of the engine, which decides when gravity changes [s]
+Quality measureQuality(const Scene& scene, const RigidScene& rigid, const Trajectory& trajectory, double time_step);
 
 }  // namespace cairn::bench

@@ -6,6 +6,7 @@
 
 #include "bench/kernels.h"
 #include "bench/peers.h"
+#include "bench/plot.h"
 #include "bench/scaling.h"
 #include "bench/scenes.h"
 #include "bench_progress.h"
@@ -159,6 +160,7 @@ struct PeersArguments {
     double steps_per_second = 240;
     std::int64_t threads = 1;
     bool awake = false;
+    std::string plot;
 };
 
 struct ScenesArguments {
@@ -208,12 +210,15 @@ void addPeersSuite(CLI::App& bench, int& exit_code) {
     command->add_option("--steps-per-second", arguments->steps_per_second, "Of every engine; default: 240");
     command->add_option("--threads", arguments->threads, "Of Cairn; default: 1, as the peers have");
     command->add_flag("--awake", arguments->awake, "No body sleeps, in any engine");
+    command->add_option("--plot", arguments->plot, "Draw times and overlaps as an SVG")->type_name("FILE");
     addSuiteOptions(*command, arguments->suite);
     command->callback([arguments, &exit_code] {
         bench::PeersOptions options = peersOptions(*arguments);
         exit_code = runSuite(arguments->suite, [&](const bench::Progress& progress) {
             options.progress = progress;
-            return bench::runPeers(options);
+            bench::Outcome outcome = bench::runPeers(options);
+            if (!arguments->plot.empty()) TextFile(arguments->plot).write(bench::peersPlot(outcome.json));
+            return outcome;
         });
     });
 }

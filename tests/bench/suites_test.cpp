@@ -6,6 +6,7 @@
 
 #include "bench/kernels.h"
 #include "bench/peers.h"
+#include "bench/plot.h"
 #include "bench/scaling.h"
 #include "bench/scenes.h"
 
@@ -128,6 +129,18 @@ TEST(Peers, FallFreelyAsTheirGravitySays) {
         // Schemes of first order differ by a time step's fall.
         EXPECT_NEAR(poses[1].position.z(), 10 - 0.5 * 10 * 0.25, 5.0 / 240) << kind.name;
     }
+}
+
+TEST(Peers, ArePlottedWithADotForEachMeasurement) {
+    PeersOptions options = quickPeers();
+    options.variants = {{"a<b&c", {}}};
+    const std::string svg = peersPlot(runPeers(options).json);
+    std::size_t dots = 0;
+    for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) ++dots;
+    EXPECT_EQ(dots, 8U);  // two scenes, two engines, time and overlap
+    EXPECT_NE(svg.find("a&lt;b&amp;c"), std::string::npos);
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
 
 TEST(Peers, RefuseWhatTheyDoNotKnow) {

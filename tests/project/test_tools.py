@@ -1,4 +1,5 @@
-"""tools/install_packages and tools/readme_results, run with stand-ins for the programs they call."""
+"""tools/install_packages, tools/readme_results, tools/record_results and
+tools/compare_results, run with stand-ins for the programs they call."""
 
 import json
 import os
@@ -153,6 +154,67 @@ class ReadmeResults(Sandbox):
         done = self.measure("exit 0")
         self.assertIn("results:begin", done.stderr)
         self.assertEqual((done.returncode, self.calls()), (1, ""))
+
+
+def results(path: Path, time: float, **origin) -> Path:
+    entries = [{"name": "tower:3/cairn", "values": {"average_ms": time, "lost": 0}, "step_ms": [time, time]}]
+    path.write_text(json.dumps({"suite": "peers", "version": "0.1.0", "date": "2026-01-02", **origin,
+                                "entries": entries + origin.get("more", [])}))
+    return path
+
+
+class CompareResults(Sandbox):
+    def compare(self, a: Path, b: Path, *options: str) -> subprocess.CompletedProcess:
+        return self.run_tool(TOOLS / "compare_results", a, b, *options)
+
+    def test_gives_the_ratio_and_what_differs_besides(self):
+        done = self.compare(results(self.folder / "a.json", 4.0, compiler="gcc"),
+                            results(self.folder / "b.json", 1.0, compiler="clang"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"tower:3/cairn +average_ms +4 +1 +0\.250")
+        self.assertRegex(done.stdout, r"geometric mean of 1 +average_ms +0\.250")
+        self.assertIn('compiler: "gcc" | "clang"', done.stdout)
+        self.assertNotIn("lost", done.stdout)
+
+    def test_shows_other_values_when_asked_to(self):
+        done = self.compare(results(self.folder / "a.json", 4.0), results(self.folder / "b.json", 1.0), "--values", "all")
+        self.assertRegex(done.stdout, r"tower:3/cairn +lost +0 +0 +-")
+
+    def test_names_what_only_one_of_them_has(self):
+        more = [{"name": "wall:3/cairn", "values": {}}]
+        done = self.compare(results(self.folder / "a.json", 4.0, more=more), results(self.folder / "b.json", 1.0))
+        self.assertIn("only in A: wall:3/cairn", done.stdout)
+
+    def test_refuses_what_is_no_result(self):
+        good = results(self.folder / "a.json", 1.0)
+        for text in ("", "[]", '{"entries": [1]}'):
+            (self.folder / "b.json").write_text(text)
+            done = self.compare(good, self.folder / "b.json")
+            self.assertEqual(done.returncode, 1, text)
+            self.assertIn("b.json", done.stderr)
+        self.assertIn("nowhere.json", self.compare(good, self.folder / "nowhere.json").stderr)
+
+
+class RecordResults(Sandbox):
+    def record(self, cairn: str) -> subprocess.CompletedProcess:
+        self.program("cairn", cairn)
+        self.program("git", 'case "$*" in *status*) ;; *) echo abcdef;; esac')
+        return self.run_tool(TOOLS / "record_results", "--binary", self.folder / "bin" / "cairn", "--results",
+                             self.folder / "results", "peers", "--repeat", "1")
+
+    def test_adds_commit_and_command_and_leaves_single_steps_out(self):
+        made = results(self.folder / "made.json", 2.0)
+        done = self.record(f'echo "$*" >{self.log}; cp {made} "${{@: -1}}"')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        entry = json.loads((self.folder / "results" / "2026-01-02-peers-abcdef.json").read_text())
+        self.assertEqual((entry["commit"], entry["command"]), ("abcdef", "cairn bench peers --repeat 1"))
+        self.assertEqual(entry["entries"], [{"name": "tower:3/cairn", "values": {"average_ms": 2.0, "lost": 0}}])
+        self.assertTrue(self.calls().startswith("bench peers --repeat 1 --save "))
+
+    def test_records_nothing_of_a_run_that_failed(self):
+        done = self.record("exit 2")
+        self.assertEqual(done.returncode, 1)
+        self.assertFalse((self.folder / "results").exists())
 
 
 if __name__ == "__main__":
