@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::uint32_t clip_version = 1;
+constexpr std::uint32_t clip_version = 2;
 constexpr std::uint8_t flag_present = 1;
 constexpr std::uint8_t flag_asleep = 2;
 constexpr std::uint8_t flag_fixed = 4;
@@ -78,7 +78,8 @@ class ClipWriter {
         : scene_(scene),
           positions_(3 * scene.bodies.size(), ClipUnits::position, DeltaStream::Prediction::line),
           orientations_(4 * scene.bodies.size(), ClipUnits::orientation, DeltaStream::Prediction::last),
-          velocities_(3 * scene.bodies.size(), ClipUnits::velocity, DeltaStream::Prediction::last) {}
+          velocities_(3 * scene.bodies.size(), ClipUnits::velocity, DeltaStream::Prediction::last),
+          spins_(3 * scene.bodies.size(), ClipUnits::spin, DeltaStream::Prediction::last) {}
 
     void put(const Frame& frame) {
         times_.put(frame.time);
@@ -86,8 +87,9 @@ class ClipWriter {
         // Component by component: equal ones stand together and compress better.
         for (int k = 0; k < 3; ++k) putVectors(frame, positions_, frame.position, k);
         for (int k = 0; k < 3; ++k) putVectors(frame, velocities_, frame.linear_velocity, k);
+        for (int k = 0; k < 3; ++k) putVectors(frame, spins_, frame.angular_velocity, k);
         putOrientations(frame);
-        for (DeltaStream* stream : {&positions_, &orientations_, &velocities_}) stream->endRow();
+        for (DeltaStream* stream : {&positions_, &orientations_, &velocities_, &spins_}) stream->endRow();
         for (std::size_t body = 0; body < n; ++body) {
             flags_.put(static_cast<std::uint8_t>((isPresent(frame, body) ? flag_present : 0) |
                                                  (frame.asleep[body] != 0 ? flag_asleep : 0) |
@@ -106,7 +108,7 @@ class ClipWriter {
         out.put(static_cast<std::uint32_t>(head.size()));
         out.putText(head);
         for (const std::string& stream : {times_.take(), flags_.take(), positions_.take(), orientations_.take(),
-                                          velocities_.take(), samples_.take()}) {
+                                          velocities_.take(), spins_.take(), samples_.take()}) {
             out.put(static_cast<std::uint64_t>(stream.size()));
             out.putText(stream);
         }
@@ -151,7 +153,7 @@ class ClipWriter {
 
     const Scene& scene_;
     ByteWriter times_, flags_, samples_;
-    DeltaStream positions_, orientations_, velocities_;
+    DeltaStream positions_, orientations_, velocities_, spins_;
 };
 
 json describeSceneBody(const SceneRun& run, std::size_t index) {
@@ -163,6 +165,40 @@ json describeSceneBody(const SceneRun& run, std::size_t index) {
     return {{"slot", index},        {"generation", 0},
             {"name", body.name},    {"shape", toJson(body.shape)},
             {"material", material}, {"mass", std::isfinite(mass) ? json(mass) : json(nullptr)}};
+}
+
+/// A line between two bodies, or a body and the world. @param b none = the world
+json describeLine(std::size_t a, const std::optional<std::size_t>& b, const Vec3& anchor_a, const Vec3& anchor_b) {
+    return {
+        {"a", a}, {"b", b ? json(*b) : json(nullptr)}, {"anchorA", toJson(anchor_a)}, {"anchorB", toJson(anchor_b)}};
+}
+
+/// Joints in the frames of their bodies, so that the page can place them in every frame.
+json describeJoints(const SceneRun& run) {
+    const World& world = run.world();
+    const std::vector<JointId> ids = world.joints();
+    json all = json::array();
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        const SceneJoint& given = run.scene().joints[i];
+        const JointInfo info = world.joint(ids[i]);
+        const Pose a = world.pose(info.a);
+        const Pose b = info.b ? world.pose(*info.b) : Pose{};
+        json joint = describeLine(given.a, given.b, a.toInner(info.anchor_a), b.toInner(info.anchor_b));
+        joint["kind"] = static_cast<std::uint32_t>(info.kind);
+        joint["axis"] = toJson(Vec3(b.orientation.conjugate() * info.axis));
+        joint["length"] = given.joint.length.value_or((info.anchor_a - info.anchor_b).norm());
+        joint["breaks"] = std::isfinite(given.joint.break_force) || std::isfinite(given.joint.break_torque);
+        all.push_back(std::move(joint));
+    }
+    return all;
+}
+
+json describeSprings(const Scene& scene) {
+    json all = json::array();
+    for (const SceneSpring& spring : scene.springs) {
+        all.push_back(describeLine(spring.a, spring.b, spring.anchor_a, spring.anchor_b));
+    }
+    return all;
 }
 
 json makeHeader(const RecordingInfo& info) {
@@ -177,12 +213,15 @@ json makeHeader(const RecordingInfo& info) {
             {"settings", std::move(settings)},
             {"materials", toJson(info.scene.materials)},
             {"bodies", std::move(bodies)},
+            {"joints", describeJoints(run)},
+            {"springs", describeSprings(info.scene)},
             {"frames", info.frames},
             {"stages", describeStages()},
             {"sampleFields", sampleFields()},
             {"positionUnit", ClipUnits::position},
             {"orientationUnit", ClipUnits::orientation},
-            {"velocityUnit", ClipUnits::velocity}};
+            {"velocityUnit", ClipUnits::velocity},
+            {"spinUnit", ClipUnits::spin}};
 }
 
 }  // namespace

@@ -120,7 +120,12 @@ Shape parseShape(const json& value) {
         return Capsule{members.number("radius", smallest_size, largest_size),
                        members.number("length", smallest_size, largest_size)};
     }
-    throw InputError(fmt::format("add: the shape '{}' is unknown; there are sphere, box and capsule", type));
+    if (type == "cylinder") {
+        const Members members(value, "cylinder", {"radius", "length"});
+        return Cylinder{members.number("radius", smallest_size, largest_size),
+                        members.number("length", smallest_size, largest_size)};
+    }
+    throw InputError(fmt::format("add: the shape '{}' is unknown; there are sphere, box, capsule and cylinder", type));
 }
 
 SettingValue parseValue(const Members& members) {

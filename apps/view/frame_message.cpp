@@ -22,22 +22,25 @@ enum class Section : std::uint32_t {
     bounds,
     moves,
     contacts,
-    springs
+    springs,
+    joints
 };
 
 constexpr std::uint8_t flag_present = 1;
 constexpr std::uint8_t flag_asleep = 2;
 constexpr std::uint8_t flag_fixed = 4;
 constexpr std::uint32_t no_batch = UINT32_MAX;
+constexpr std::uint32_t no_slot = UINT32_MAX;
 
-constexpr std::array<std::pair<std::string_view, Layer>, 8> names = {{{"speed", Layer::speed},
+constexpr std::array<std::pair<std::string_view, Layer>, 9> names = {{{"speed", Layer::speed},
                                                                       {"batch", Layer::batch},
                                                                       {"overlap", Layer::overlap},
                                                                       {"level", Layer::level},
                                                                       {"stage", Layer::stage},
                                                                       {"bounds", Layer::bounds},
                                                                       {"moves", Layer::moves},
-                                                                      {"contacts", Layer::contacts}}};
+                                                                      {"contacts", Layer::contacts},
+                                                                      {"joints", Layer::joints}}};
 
 constexpr Layers traced_layers = bit(Layer::level) | bit(Layer::stage) | bit(Layer::bounds) | bit(Layer::moves);
 
@@ -103,6 +106,12 @@ void putOverlaps(ByteWriter& out, const std::vector<ContactInfo>& contacts, std:
     putSection(out, Section::overlap, overlap);
 }
 
+void putVectors(ByteWriter& out, std::initializer_list<Vec3> vectors) {
+    for (const Vec3& v : vectors) {
+        for (int k = 0; k < 3; ++k) out.put(static_cast<float>(v[k]));
+    }
+}
+
 void putContacts(ByteWriter& out, const std::vector<ContactInfo>& contacts) {
     constexpr std::size_t contact_bytes = 48;
     out.put(Section::contacts);
@@ -111,9 +120,21 @@ void putContacts(ByteWriter& out, const std::vector<ContactInfo>& contacts) {
         out.put(contact.a.index);
         out.put(contact.b.index);
         out.put(static_cast<float>(contact.distance));
-        for (const Vec3* v : {&contact.point, &contact.normal, &contact.impulse}) {
-            for (int k = 0; k < 3; ++k) out.put(static_cast<float>((*v)[k]));
-        }
+        putVectors(out, {contact.point, contact.normal, contact.impulse});
+    }
+}
+
+void putJoints(ByteWriter& out, const World& world) {
+    constexpr std::size_t joint_bytes = 48;
+    const std::vector<JointId> ids = world.joints();
+    out.put(Section::joints);
+    out.put(static_cast<std::uint32_t>(ids.size() * joint_bytes));
+    for (const JointId id : ids) {
+        const JointInfo joint = world.joint(id);
+        out.put(static_cast<std::uint32_t>(joint.kind));
+        out.put(joint.a.index);
+        out.put(joint.b ? joint.b->index : no_slot);
+        putVectors(out, {joint.anchor_a, joint.anchor_b, joint.axis});
     }
 }
 
@@ -187,6 +208,7 @@ SharedMessage makeFrameMessage(const World& world, const std::vector<BodyId>& bo
         if (wanted(Layer::contacts)) putContacts(out, contacts);
     }
     if ((layers & traced_layers) != 0) putTraces(out, world, bodies, slots, layers);
+    if (wanted(Layer::joints)) putJoints(out, world);
     if (!springs.empty()) putSprings(out, springs);
     return std::make_shared<const Message>(Message{Message::Kind::binary, out.take()});
 }

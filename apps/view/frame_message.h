@@ -20,7 +20,8 @@ enum class Layer : std::uint32_t {
     stage = 16,
     bounds = 32,
     moves = 64,
-    contacts = 128
+    contacts = 128,
+    joints = 256
 };
 using Layers = std::uint32_t;
 

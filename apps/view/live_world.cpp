@@ -243,6 +243,17 @@ json LiveWorld::describeSelection(BodyId body) const {
                             {"distance", contact.distance},
                             {"impulse", toJson(Vec3(sign * contact.impulse))}});
     }
+    json joints = json::array();
+    for (const JointId id : w.joints()) {
+        const JointInfo joint = w.joint(id);
+        if (joint.a != body && joint.b != body) continue;
+        const std::optional<BodyId> other = joint.a == body ? joint.b : joint.a;
+        joints.push_back({{"kind", static_cast<std::uint32_t>(joint.kind)},
+                          {"other", other ? bodyTitle(w, *other) : "the world"},
+                          {"position", joint.position},
+                          {"force", joint.force.norm()},
+                          {"torque", joint.torque.norm()}});
+    }
     const double mass = w.mass(body);
     json selection = {{"type", "selection"},
                       {"body", {{"slot", body.index}, {"generation", body.generation}}},
@@ -257,7 +268,8 @@ json LiveWorld::describeSelection(BodyId body) const {
                       {"asleep", w.isAsleep(body)},
                       {"fixed", w.isFixed(body)},
                       {"batch", nullptr},
-                      {"contacts", std::move(contacts)}};
+                      {"contacts", std::move(contacts)},
+                      {"joints", std::move(joints)}};
     const std::vector<BatchInfo> batches = w.batches();
     if (batch && *batch < batches.size() && !w.isFixed(body)) {
         const BatchInfo& info = batches[*batch];

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <boost/asio/dispatch.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
 #include <map>
@@ -207,7 +208,8 @@ struct Server::Impl {
         wanted = any;
     }
 
-    void post(std::function<void()> work) { asio::post(context, std::move(work)); }
+    /// At once in the server's own thread: what it says there must not be overtaken by what other threads post.
+    void post(std::function<void()> work) { asio::dispatch(context, std::move(work)); }
 
     ServerOptions options;
     int connections = 0;          ///< before the context, whose end closes what is open

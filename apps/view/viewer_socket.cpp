@@ -81,8 +81,9 @@ void ViewerSocket::refuse(std::string_view text) {
         Message{Message::Kind::text, R"({"type":"error","text":")" + std::string(text) + "\"}"}));
 }
 
+/// Before it is open nothing is kept: the first thing that a viewer hears is the greeting.
 void ViewerSocket::send(SharedMessage message) {
-    if (ended_) return;
+    if (!open_ || ended_) return;
     queued_bytes_ += message->bytes.size();
     if (queued_bytes_ > most_queued_bytes) {
         close();
@@ -93,7 +94,7 @@ void ViewerSocket::send(SharedMessage message) {
 }
 
 void ViewerSocket::offerFrame(SharedMessage message) {
-    if (ended_) return;
+    if (!open_ || ended_) return;
     frame_ = std::move(message);
     write();
 }

@@ -18,7 +18,7 @@ class ClipReader {
     explicit ClipReader(const std::string& clip) : bytes_(gunzip(clip)) {
         EXPECT_EQ(bytes_.substr(0, 8), "CAIRNCLP");
         at_ = 8;
-        EXPECT_EQ(number<std::uint32_t>(), 1U);
+        EXPECT_EQ(number<std::uint32_t>(), 2U);
         const auto size = number<std::uint32_t>();
         header = nlohmann::json::parse(bytes_.substr(at_, size));
         at_ += size;
@@ -61,7 +61,7 @@ class ClipReader {
     }
 
     nlohmann::json header;
-    std::array<std::string, 6> streams;  ///< times, flags, positions, orientations, velocities, samples
+    std::array<std::string, 7> streams;  ///< times, flags, positions, orientations, velocities, spins, samples
 
   private:
     template <typename Number>
@@ -92,7 +92,7 @@ class Clip : public testing::Test {
     }
 };
 
-TEST_F(Clip, KeepsPosesVelocitiesAndFlagsOfEveryFrame) {
+TEST_F(Clip, KeepsPosesMotionAndFlagsOfEveryFrame) {
     const auto file = record(builtInScene("tower:6"), 20);
     const RecordingReader recording(file);
     const ClipReader clip(makeClip(recording));
@@ -107,6 +107,7 @@ TEST_F(Clip, KeepsPosesVelocitiesAndFlagsOfEveryFrame) {
     const auto positions = ClipReader::rows(clip.streams[2], 3 * n, ClipUnits::position, 2);
     const auto orientations = ClipReader::rows(clip.streams[3], 4 * n, ClipUnits::orientation, 1);
     const auto velocities = ClipReader::rows(clip.streams[4], 3 * n, ClipUnits::velocity, 1);
+    const auto spins = ClipReader::rows(clip.streams[5], 3 * n, ClipUnits::spin, 1);
     ASSERT_EQ(positions.size(), recording.info().frames);
     for (std::size_t f = 0; f < recording.info().frames; ++f) {
         const Frame frame = recording.frame(f);
@@ -117,6 +118,8 @@ TEST_F(Clip, KeepsPosesVelocitiesAndFlagsOfEveryFrame) {
                             0.51 * ClipUnits::position);
                 EXPECT_NEAR(velocities[f][k * n + body], frame.linear_velocity[body][static_cast<int>(k)],
                             0.51 * ClipUnits::velocity);
+                EXPECT_NEAR(spins[f][k * n + body], frame.angular_velocity[body][static_cast<int>(k)],
+                            0.51 * ClipUnits::spin);
             }
             for (std::size_t k = 0; k < 4; ++k) q.coeffs()[static_cast<int>(k)] = orientations[f][k * n + body];
             EXPECT_LT(q.normalized().angularDistance(frame.orientation[body]), 2e-3);
@@ -138,6 +141,32 @@ TEST_F(Clip, MarksRemovedBodies) {
     const ClipReader clip(makeClip(recording));
     EXPECT_EQ(clip.streams[1][last] & 1, 1);
     EXPECT_EQ(clip.streams[1][12 * scene.bodies.size() + last] & 1, 0);
+    std::filesystem::remove(file);
+}
+
+/// A place of the header: in the frame of a body, or of the world.
+Vec3 placed(const nlohmann::json& body, const nlohmann::json& point, const Frame& frame) {
+    const Vec3 local(point[0], point[1], point[2]);
+    if (body.is_null()) return local;
+    const auto i = body.get<std::size_t>();
+    return frame.position[i] + frame.orientation[i] * local;
+}
+
+TEST_F(Clip, PlacesJointsByTheirBodies) {
+    const Scene scene = builtInScene("cradle_swing:3:1");
+    const auto file = record(scene, 10);
+    const RecordingReader recording(file);
+    const ClipReader clip(makeClip(recording));
+    const nlohmann::json& joints = clip.header["joints"];
+    ASSERT_EQ(joints.size(), scene.joints.size());
+    ASSERT_GT(joints.size(), 0U);
+    const Frame frame = recording.frame(10);
+    for (const nlohmann::json& joint : joints) {
+        EXPECT_EQ(joint["kind"], static_cast<int>(JointKind::hinge));
+        EXPECT_EQ(joint["breaks"], false);
+        const Vec3 gap = placed(joint["a"], joint["anchorA"], frame) - placed(joint["b"], joint["anchorB"], frame);
+        EXPECT_LT(gap.norm(), 1e-5);
+    }
     std::filesystem::remove(file);
 }
 

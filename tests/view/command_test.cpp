@@ -36,6 +36,10 @@ TEST(Command, ReadsWhatThePageSends) {
     const auto box =
         parsed<AddBody>(R"({"do":"add","shape":{"type":"box","size":[1,2,3]},"material":"oak","position":[0,0,9]})");
     EXPECT_EQ(std::get<Box>(box.shape).size, Vec3(1, 2, 3));
+    const auto cylinder = parsed<AddBody>(
+        R"({"do":"add","shape":{"type":"cylinder","radius":0.1,"length":0.3},"material":"oak","position":[0,0,9]})");
+    EXPECT_EQ(std::get<Cylinder>(cylinder.shape).radius, 0.1);
+    EXPECT_EQ(std::get<Cylinder>(cylinder.shape).length, 0.3);
     EXPECT_EQ(parsed<DeleteBody>(R"({"do":"delete","body":[7,2]})").body, (BodyId{7, 2}));
     EXPECT_EQ(parsed<SelectBody>(R"({"do":"select","body":null})").body, std::nullopt);
     EXPECT_EQ(parsed<ChooseLayers>(R"({"do":"layers","layers":["speed","contacts"]})").layers,

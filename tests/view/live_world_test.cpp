@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 
 #include "view/frame_message.h"
@@ -144,7 +145,7 @@ TEST(LiveWorld, TheSelectionTellsStateContactsAndBatch) {
 TEST(FrameMessage, HoldsThePosesAndTheLayersAskedFor) {
     LiveWorld world = tower(3);
     for (int i = 0; i < 20; ++i) world.step();
-    const Layers all = 255;
+    const Layers all = 511;
     const SharedMessage message =
         makeFrameMessage(world.world(), world.bodies(), 9, all, {{Vec3::Zero(), Vec3::UnitX()}});
     ASSERT_EQ(message->kind, Message::Kind::binary);
@@ -177,8 +178,42 @@ TEST(FrameMessage, HoldsThePosesAndTheLayersAskedFor) {
         at += 8 + (size + 3) / 4 * 4;
         ASSERT_LE(at, bytes.size());
     }
-    EXPECT_EQ(kinds, (std::vector<std::uint32_t>{1, 2, 3, 4, 5, 6, 11, 7, 8, 9, 10, 12}));
+    EXPECT_EQ(kinds, (std::vector<std::uint32_t>{1, 2, 3, 4, 5, 6, 11, 7, 8, 9, 10, 13, 12}));
     EXPECT_LT(makeFrameMessage(world.world(), world.bodies(), 9, 0, {})->bytes.size(), bytes.size());
+}
+
+TEST(FrameMessage, HoldsTheJointsWhereTheyAre) {
+    const Scene scene = builtInScene("cradle_swing:2:1");
+    LiveWorld world(scene, "cradle", settingsFor(scene));
+    for (int i = 0; i < 8; ++i) world.step();
+    const SharedMessage message = makeFrameMessage(world.world(), world.bodies(), 1, bit(Layer::joints), {});
+    const std::string& bytes = message->bytes;
+    const std::vector<JointId> ids = world.world().joints();
+    ASSERT_FALSE(ids.empty());
+    const std::size_t begin = bytes.size() - 48 * ids.size();
+    std::array<std::uint32_t, 5> head{};  // kind of section, its bytes, kind of joint, A, B
+    std::memcpy(head.data(), bytes.data() + begin - 8, sizeof(head));
+    const JointInfo joint = world.world().joint(ids.front());
+    EXPECT_EQ(head, (std::array<std::uint32_t, 5>{13, static_cast<std::uint32_t>(48 * ids.size()),
+                                                  static_cast<std::uint32_t>(JointKind::hinge), joint.a.index,
+                                                  joint.b ? joint.b->index : UINT32_MAX}));
+    std::array<float, 9> points{};
+    std::memcpy(points.data(), bytes.data() + begin + 12, sizeof(points));
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(points[k], static_cast<float>(joint.anchor_a[static_cast<int>(k)]));
+        EXPECT_EQ(points[3 + k], static_cast<float>(joint.anchor_b[static_cast<int>(k)]));
+    }
+}
+
+TEST(LiveWorld, TheSelectionTellsTheJoints) {
+    const Scene scene = builtInScene("cradle_swing:2:1");
+    LiveWorld world(scene, "cradle", settingsFor(scene));
+    world.step();
+    const JointInfo joint = world.world().joint(world.world().joints().front());
+    const auto joints = world.describeSelection(joint.a)["joints"];
+    ASSERT_GE(joints.size(), 1U);
+    EXPECT_EQ(joints[0]["kind"], static_cast<int>(JointKind::hinge));
+    EXPECT_EQ(joints[0]["force"], joint.force.norm());
 }
 
 }  // namespace

@@ -61,6 +61,15 @@ class Client {
         return {};
     }
 
+    /// The next text message of whatever type.
+    json nextText() {
+        for (;;) {
+            beast::flat_buffer buffer;
+            socket_.read(buffer);
+            if (!socket_.got_binary()) return json::parse(beast::buffers_to_string(buffer.data()));
+        }
+    }
+
     /// The first state that fits.
     template <typename Fits>
     json stateWhere(const Fits& fits) {
@@ -96,6 +105,14 @@ TEST(Viewer, GreetsWithEverythingThePageNeeds) {
     EXPECT_EQ(hello["scenes"].size(), builtInScenes().size());
     const json world = client.next("world");
     EXPECT_EQ(world["bodies"].size(), builtInScene("tower:4").bodies.size());
+}
+
+TEST(Viewer, TheGreetingComesFirst) {
+    const Viewer viewer(pausedTower(), {});
+    for (int i = 0; i < 40; ++i) {
+        Client client(portOf(viewer));
+        EXPECT_EQ(client.nextText()["type"], "hello");
+    }
 }
 
 TEST(Viewer, StepsGiveTheStateOfTheLibrary) {

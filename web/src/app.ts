@@ -6,7 +6,7 @@ import { Charts, type ChartData } from './ui/charts';
 import { Help } from './ui/help';
 import { colourModes, LayersPanel, legendFor, switches } from './ui/layers';
 import { Shell, type Tab } from './ui/shell';
-import { h, setText } from './ui/dom';
+import { h, setText, significant } from './ui/dom';
 
 export interface Mode {
   /** once per picture, before it is drawn. @param seconds since the last one */
@@ -99,12 +99,14 @@ export class App {
   }
 
   private updateLegend(): void {
-    const maximum = this.stage.panels[0].bodies.range.maximum;
-    const key = `${this.options.colour}:${maximum}`;
+    const [panel] = this.stage.panels;
+    const maximum = panel.bodies.range.maximum;
+    const step = this.options.grid ? panel.gridStep : 0;
+    const key = `${this.options.colour}:${maximum}:${step}`;
     if (key === this.legendKey) return;
     this.legendKey = key;
     const legend = legendFor(this.options.colour, maximum);
-    this.shell.legend.replaceChildren(...(legend ? [legend] : []));
+    this.shell.legend.replaceChildren(...(legend ? [legend] : []), ...(step > 0 ? [h('div', { id: 'scale' }, `Grid ${length(step)}, fine ${length(step / 10)}`)] : []));
   }
 
   private async savePicture(): Promise<void> {
@@ -145,6 +147,10 @@ export class App {
     else return false;
     return true;
   }
+}
+
+function length(metres: number): string {
+  return metres >= 1 ? `${significant(metres)} m` : `${significant(100 * metres)} cm`;
 }
 
 /** Storage is refused in some files opened from disk; nothing important is kept there. */

@@ -1,4 +1,5 @@
 /** Clips: recordings as `cairn view` serves and `cairn export --html` embeds them. Format: docs/view-protocol.md. */
+import { breaksOf, jointsAt, springsAt, type JointInfo, type LineInfo } from './links';
 import { present, type BodyInfo, type Frame, type MaterialInfo, type Roster, type Sample } from './model';
 import type { Value } from './protocol';
 
@@ -9,21 +10,26 @@ interface Header {
   settings: Record<string, Value>;
   materials: MaterialInfo[];
   bodies: BodyInfo[];
+  joints: JointInfo[];
+  springs: LineInfo[];
   frames: number;
   stages: string[];
   sampleFields: string[];
   positionUnit: number;
   orientationUnit: number;
   velocityUnit: number;
+  spinUnit: number;
 }
 
 const magic = 'CAIRNCLP';
+const clipVersion = 2;
 
 /** A recording in memory: every frame can be had at once. */
 export class Clip {
   readonly roster: Roster;
   readonly samples: Sample[] = [];
   private readonly count: number;
+  private readonly breaks: number[];
 
   constructor(
     readonly header: Header,
@@ -32,6 +38,7 @@ export class Clip {
     private readonly positions: Float32Array,
     private readonly orientations: Float32Array,
     private readonly velocities: Float32Array,
+    private readonly spins: Float32Array,
     sampleValues: Float64Array,
   ) {
     this.count = header.bodies.length;
@@ -42,6 +49,7 @@ export class Clip {
       bodies: new Map(header.bodies.map((body) => [body.slot, body])),
       slots: this.count,
     };
+    this.breaks = breaksOf(header.joints, header.frames, (f) => this.recorded(f));
     const width = header.sampleFields.length;
     for (let f = 1; f < header.frames; f++) {
       this.samples.push({ time: times[f], values: sampleValues.subarray(f * width, (f + 1) * width) });
@@ -68,28 +76,37 @@ export class Clip {
     const span = this.times[j] - this.times[i];
     const part = span > 0 ? Math.min(1, Math.max(0, (time - this.times[i]) / span)) : 0;
     const n = this.count;
-    const frame: Frame = {
+    const frame = this.recorded(i);
+    frame.time = Math.min(Math.max(time, 0), this.duration);
+    frame.speed = new Float32Array(n);
+    if (part > 1e-6) this.blend(frame, j, part);
+    frame.joints = jointsAt(this.header.joints, frame, (joint) => this.breaks[joint] <= i);
+    frame.springs = springsAt(this.header.springs, frame);
+    for (let b = 0; b < n; b++) {
+      const at = 3 * (n * i + b);
+      frame.speed[b] = Math.hypot(this.velocities[at], this.velocities[at + 1], this.velocities[at + 2]);
+    }
+    return frame;
+  }
+
+  /** @return velocity [m/s] and spin [rad/s] of a body in the last frame at or before the time */
+  motionAt(time: number, body: number): { velocity: number[]; spin: number[] } {
+    const at = 3 * (this.count * this.indexAt(time) + body);
+    return { velocity: [...this.velocities.subarray(at, at + 3)], spin: [...this.spins.subarray(at, at + 3)] };
+  }
+
+  /** A frame as it was recorded, in arrays of its own. */
+  private recorded(i: number): Frame {
+    const n = this.count;
+    return {
       epoch: 1,
-      time: Math.min(Math.max(time, 0), this.duration),
+      time: this.times[i],
       step: i,
       slots: n,
       position: this.positions.slice(3 * n * i, 3 * n * (i + 1)),
       orientation: this.orientations.slice(4 * n * i, 4 * n * (i + 1)),
       flags: this.flags.subarray(n * i, n * (i + 1)),
-      speed: new Float32Array(n),
     };
-    if (part > 1e-6) this.blend(frame, j, part);
-    for (let b = 0; b < n; b++) {
-      const at = 3 * (n * i + b);
-      frame.speed![b] = Math.hypot(this.velocities[at], this.velocities[at + 1], this.velocities[at + 2]);
-    }
-    return frame;
-  }
-
-  /** @return [m/s] of a body in the last frame at or before the time */
-  velocityAt(time: number, body: number): number[] {
-    const at = 3 * (this.count * this.indexAt(time) + body);
-    return [...this.velocities.subarray(at, at + 3)];
   }
 
   private blend(frame: Frame, next: number, part: number): void {
@@ -121,7 +138,7 @@ export async function decodeClip(compressed: Blob): Promise<Clip> {
   const view = new DataView(data);
   const text = new TextDecoder();
   if (data.byteLength < 16 || text.decode(new Uint8Array(data, 0, 8)) !== magic) throw new Error('This is not a Cairn clip.');
-  if (view.getUint32(8, true) !== 1) throw new Error('This clip was made by another version of Cairn.');
+  if (view.getUint32(8, true) !== clipVersion) throw new Error('This clip was made by another version of Cairn.');
   const headerBytes = view.getUint32(12, true);
   const header = JSON.parse(text.decode(new Uint8Array(data, 16, headerBytes))) as Header;
   let at = 16 + headerBytes;
@@ -137,7 +154,8 @@ export async function decodeClip(compressed: Blob): Promise<Clip> {
   const orientations = undelta(take(), header.frames, n, 4, header.orientationUnit, 1);
   normalise(orientations);
   const velocities = undelta(take(), header.frames, n, 3, header.velocityUnit, 1);
-  return new Clip(header, times, flags, positions, orientations, velocities, toNumbers(take()));
+  const spins = undelta(take(), header.frames, n, 3, header.spinUnit, 1);
+  return new Clip(header, times, flags, positions, orientations, velocities, spins, toNumbers(take()));
 }
 
 function toNumbers(bytes: Uint8Array): Float64Array {

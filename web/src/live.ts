@@ -5,11 +5,13 @@ import { Connection } from './connection';
 import { layersFor, type Frame, type Roster, type Sample } from './model';
 import type { BodiesMessage, Hello, Selection, State, TextMessage, Value, WorldMessage } from './protocol';
 import type { ChartData } from './ui/charts';
-import { BodiesPanel } from './ui/bodies';
+import { addable, BodiesPanel, type Addable } from './ui/bodies';
 import { Dragging } from './ui/drag';
 import { h, iconButton, quantity, setText, significant } from './ui/dom';
 import { SettingsPanel } from './ui/settings';
-import type { Hit } from './view/pick';
+import { planesOf } from './view/ground';
+import { nearest, type Hit } from './view/pick';
+import { shotAlong } from './view/throw';
 
 const shownSeconds = 12;
 const speeds = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8];
@@ -148,31 +150,27 @@ export class Live implements Mode {
     const box = this.app.stage.canvas.getBoundingClientRect();
     const over = this.dragging.pointer;
     const at = over && over.x > box.left && over.x < box.right ? over : { x: box.left + box.width / 2, y: box.top + box.height / 2 };
-    const { ray } = this.app.stage.rayAt(at.x, at.y);
-    const reach = Math.min(6, 0.5 * this.app.stage.camera.position.distanceTo(this.app.stage.controls.target));
-    const origin = ray.at(Math.max(0.3, this.app.stage.camera.position.distanceTo(this.app.stage.controls.target) - reach), new Vector3());
-    if (origin.z < radius * 1.05 && ray.origin.z > radius) origin.z = radius * 1.05;
-    this.command({ do: 'throw', origin: origin.toArray(), velocity: ray.direction.clone().multiplyScalar(speed).toArray(), radius, material });
+    const { ray, panel } = this.app.stage.rayAt(at.x, at.y);
+    if (!panel.roster || !panel.frame) return;
+    const aim = Math.min(nearest(ray, panel.roster, panel.frame).distance, 2 * this.app.stage.camera.position.distanceTo(panel.extent.centre));
+    const gravity = new Vector3(...(this.state?.gravity ?? [0, 0, 0]));
+    const shot = shotAlong(ray, aim, gravity, speed, radius, planesOf(panel.roster, panel.frame));
+    this.command({ do: 'throw', origin: shot.origin.toArray(), velocity: shot.velocity.toArray(), radius, material });
     this.app.shell.hideHint();
   }
 
-  add(shape: 'box' | 'sphere' | 'capsule'): void {
+  add(shape: Addable): void {
     const { size } = this.bodies.ammunition;
     const target = this.app.stage.controls.target;
     const { extent } = this.app.stage.panels[0];
     const position = [target.x, target.y, Math.max(target.z, extent.centre.z) + extent.size + size];
-    const shapes = {
-      box: { type: 'box', size: [size, size, size] },
-      sphere: { type: 'sphere', radius: size / 2 },
-      capsule: { type: 'capsule', radius: size / 4, length: size / 2 },
-    };
-    this.command({ do: 'add', shape: shapes[shape], material: this.bodies.addedMaterial, position });
+    this.command({ do: 'add', shape: addable[shape].shape(size), material: this.bodies.addedMaterial, position });
   }
 
   select(slot: number | null): void {
     const body = slot === null ? undefined : this.roster?.bodies.get(slot);
     this.command({ do: 'select', body: body ? [body.slot, body.generation] : null });
-    this.app.stage.panels[0].bodies.emphasise(new Map(body ? [[body.slot, 1]] : []));
+    this.app.stage.panels[0].select(body ? body.slot : null);
     this.app.stage.touch();
     if (!body) {
       this.selection = null;
@@ -245,9 +243,10 @@ export class Live implements Mode {
     this.showClock(state.time);
     const behind = state.playing && state.realTime < 0.95 * state.speed;
     const rate = state.playing ? `${significant(state.realTime, 2)}× real time` : 'paused';
-    setText(this.app.shell.status, `${rate} · ${Math.round(this.app.stage.picturesPerSecond) || '–'} pictures/s`);
+    setText(this.app.shell.status, rate);
+    this.app.shell.showPictures(this.app.stage.picturesPerSecond);
     this.app.shell.status.classList.toggle('behind', behind);
-    this.app.shell.status.title = behind ? `The simulation needs longer than the ${significant(state.speed)}× asked for` : 'Simulated seconds per second, and pictures drawn';
+    this.app.shell.status.title = behind ? `The simulation needs longer than the ${significant(state.speed)}× asked for` : 'Simulated seconds per second';
     this.app.setAbout([
       ['time', 'Time', `${state.time.toFixed(4)} s`], ['steps', 'Time steps', String(state.steps)],
       ['bodies', 'Bodies', String(this.roster?.bodies.size ?? 0)],

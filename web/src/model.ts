@@ -55,6 +55,21 @@ export interface Contacts {
   impulse: Float32Array;
 }
 
+/** What a joint keeps, in the order of their numbers. */
+export const jointKinds = ['distance', 'rope', 'ball joint', 'hinge', 'slider', 'fixed joint'];
+export const distanceJoint = 0, ropeJoint = 1, hingeJoint = 3, sliderJoint = 4;
+/** stands for the world where a body could stand */
+export const noSlot = 0xffffffff;
+
+/** The joints of a world; `points` has nine numbers per joint: the points of A and B, and the axis of hinges and sliders. */
+export interface Joints {
+  count: number;
+  kind: Uint32Array;
+  a: Uint32Array;
+  b: Uint32Array;
+  points: Float32Array;
+}
+
 /** The state at one moment; arrays have one entry (or 3, 4, 6) per slot. Optional ones are there when asked for. */
 export interface Frame {
   epoch: number;
@@ -75,6 +90,7 @@ export interface Frame {
   contacts?: Contacts;
   /** pairs of points */
   springs?: Float32Array;
+  joints?: Joints;
 }
 
 /** One simulation step of 1/30 s, for the charts; `values` in the order of `sampleFields`. */
@@ -84,7 +100,7 @@ export interface Sample {
 }
 
 export type LayerName =
-  | 'speed' | 'batch' | 'overlap' | 'level' | 'stage' | 'bounds' | 'moves' | 'contacts';
+  | 'speed' | 'batch' | 'overlap' | 'level' | 'stage' | 'bounds' | 'moves' | 'contacts' | 'joints';
 
 export type ColourMode = 'material' | 'batch' | 'asleep' | 'speed' | 'overlap' | 'level' | 'stage';
 
@@ -97,13 +113,14 @@ export interface ViewOptions {
   friction: boolean;
   moves: boolean;
   bounds: boolean;
+  joints: boolean;
   shadows: boolean;
   grid: boolean;
 }
 
 export const defaultOptions: ViewOptions = {
   colour: 'material', points: false, normals: false, impulses: false, friction: false, moves: false, bounds: false,
-  shadows: true, grid: true,
+  joints: true, shadows: true, grid: true,
 };
 
 /** The arrays that must come with the frames so that the options can be drawn. */
@@ -113,5 +130,6 @@ export function layersFor(options: ViewOptions): LayerName[] {
   if (options.points || options.normals || options.impulses || options.friction) layers.add('contacts');
   if (options.moves) layers.add('moves');
   if (options.bounds) layers.add('bounds');
+  if (options.joints) layers.add('joints');
   return [...layers].sort();
 }

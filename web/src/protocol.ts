@@ -1,5 +1,5 @@
 /** The messages of docs/view-protocol.md, as the page sees them. */
-import type { BodyInfo, Contacts, Frame, MaterialInfo, Sample } from './model';
+import type { BodyInfo, Contacts, Frame, Joints, MaterialInfo, Sample } from './model';
 
 export type Value = number | string | boolean;
 
@@ -80,6 +80,14 @@ export interface SelectedContact {
   impulse: number[];
 }
 
+export interface SelectedJoint {
+  kind: number;
+  other: string;
+  position: number;
+  force: number;
+  torque: number;
+}
+
 export interface Selection {
   type: 'selection';
   body: { slot: number; generation: number } | null;
@@ -95,6 +103,7 @@ export interface Selection {
   fixed: boolean;
   batch: { index: number; bodies: number; contacts: number } | null;
   contacts: SelectedContact[];
+  joints: SelectedJoint[];
 }
 
 export interface ErrorMessage { type: 'error'; text: string; id?: number }
@@ -107,8 +116,9 @@ export type TextMessage = NextPicture | Hello | WorldMessage | BodiesMessage | S
 export const frameKind = 1;
 export const sampleKind = 2;
 
-const enum Section { position = 1, orientation, flags, speed, batch, overlap, level, stage, bounds, moves, contacts, springs }
+const enum Section { position = 1, orientation, flags, speed, batch, overlap, level, stage, bounds, moves, contacts, springs, joints }
 const contactWords = 12;
+const jointWords = 12;
 
 /** The rest of a binary message after its kind. @throws RangeError if it is cut off */
 export function decodeFrame(data: ArrayBuffer): Frame {
@@ -140,6 +150,7 @@ export function decodeFrame(data: ArrayBuffer): Frame {
       case Section.moves: frame.moves = new Float32Array(data, at, bytes / 4); break;
       case Section.contacts: frame.contacts = unpackContacts(data, at, bytes); break;
       case Section.springs: frame.springs = new Float32Array(data, at, bytes / 4); break;
+      case Section.joints: frame.joints = unpackJoints(data, at, bytes); break;
     }
     at += (bytes + 3) & ~3;
   }
@@ -184,6 +195,23 @@ function unpackContacts(data: ArrayBuffer, at: number, bytes: number): Contacts 
     }
   }
   return contacts;
+}
+
+function unpackJoints(data: ArrayBuffer, at: number, bytes: number): Joints {
+  const words = new Uint32Array(data, at, bytes / 4);
+  const numbers = new Float32Array(data, at, bytes / 4);
+  const count = Math.floor(words.length / jointWords);
+  const joints: Joints = {
+    count, kind: new Uint32Array(count), a: new Uint32Array(count), b: new Uint32Array(count), points: new Float32Array(9 * count),
+  };
+  for (let i = 0; i < count; i++) {
+    const w = i * jointWords;
+    joints.kind[i] = words[w];
+    joints.a[i] = words[w + 1];
+    joints.b[i] = words[w + 2];
+    joints.points.set(numbers.subarray(w + 3, w + 12), 9 * i);
+  }
+  return joints;
 }
 
 /** One or more simulation steps for the charts. */

@@ -62,7 +62,8 @@ export class Replay implements Mode {
       if (this.time >= this.duration) this.setPlaying(false);
     }
     if (this.time !== this.shown) this.show();
-    setText(this.app.shell.status, `${this.playing ? `${significant(this.speed)}×` : 'paused'} · ${Math.round(this.app.stage.picturesPerSecond) || '–'} pictures/s`);
+    setText(this.app.shell.status, this.playing ? `${significant(this.speed)}× real time` : 'paused');
+    this.app.shell.showPictures(this.app.stage.picturesPerSecond);
   }
 
   optionsChanged(): void { this.shown = -1; }
@@ -97,7 +98,7 @@ export class Replay implements Mode {
 
   select(slot: number | null): void {
     this.selected = slot === null ? null : { panel: 0, slot };
-    for (const panel of this.app.stage.panels) panel.bodies.emphasise(new Map(slot === null ? [] : [[slot, 1]]));
+    for (const panel of this.app.stage.panels) panel.select(slot);
     this.app.stage.touch();
     if (slot === null) this.bodies.showNothing();
     else if (window.innerWidth >= 760) this.app.shell.open('bodies');
@@ -161,8 +162,8 @@ function describe(clip: Clip, panel: WorldPanel, time: number, slot: number): Se
   return {
     type: 'selection', body: { slot, generation: 0 }, name: body.name || `body ${slot}`, shape: describeShape(body.shape),
     material: clip.roster.materials[body.material]?.name ?? '', mass: body.mass, position: at(frame.position, 3), orientation: [w, x, y, z],
-    velocity: clip.velocityAt(time, slot), spin: [], asleep: (frame.flags[slot] & asleep) !== 0, fixed: (frame.flags[slot] & fixed) !== 0,
-    batch: null, contacts: [],
+    ...clip.motionAt(time, slot), asleep: (frame.flags[slot] & asleep) !== 0, fixed: (frame.flags[slot] & fixed) !== 0,
+    batch: null, contacts: [], joints: [],
   };
 }
 

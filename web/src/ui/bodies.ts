@@ -1,11 +1,20 @@
 /** What is thrown and added, and the state of the selected body. */
-import type { MaterialInfo } from '../model';
+import { jointKinds, type MaterialInfo, type ShapeInfo } from '../model';
 import type { Selection } from '../protocol';
 import { h, quantity, significant } from './dom';
 
+/** What can be added: shapes that fill a cube of the size asked for, as far as they can. */
+export const addable = {
+  box: { label: 'Box', shape: (size: number): ShapeInfo => ({ type: 'box', size: [size, size, size] }) },
+  sphere: { label: 'Ball', shape: (size: number): ShapeInfo => ({ type: 'sphere', radius: size / 2 }) },
+  capsule: { label: 'Capsule', shape: (size: number): ShapeInfo => ({ type: 'capsule', radius: size / 4, length: size / 2 }) },
+  cylinder: { label: 'Cylinder', shape: (size: number): ShapeInfo => ({ type: 'cylinder', radius: size / 2, length: size }) },
+};
+export type Addable = keyof typeof addable;
+
 export interface BodyActions {
   throwBall(): void;
-  add(shape: 'box' | 'sphere' | 'capsule'): void;
+  add(shape: Addable): void;
   freeze(): void;
   remove(): void;
   deselect(): void;
@@ -26,15 +35,15 @@ export class BodiesPanel {
   private shown = '';
 
   constructor(private readonly actions: BodyActions) {
-    const add = (shape: 'box' | 'sphere' | 'capsule', label: string): HTMLElement =>
-      h('button', { type: 'button', id: `add-${shape}`, onclick: () => actions.add(shape) }, label);
+    const add = ([shape, { label }]: [string, { label: string }]): HTMLElement =>
+      h('button', { type: 'button', id: `add-${shape}`, onclick: () => actions.add(shape as Addable) }, label);
     this.tools.append(
       h('fieldset', {}, h('legend', {}, 'Throw'),
         field('Diameter', 'cm', this.diameter), field('Speed', 'm/s', this.speed), field('Material', '', this.throwMaterial),
         h('div', { class: 'buttons' }, h('button', { type: 'button', class: 'strong', onclick: () => actions.throwBall() }, 'Throw a ball'))),
       h('fieldset', {}, h('legend', {}, 'Add'),
         field('Size', 'cm', this.size), field('Material', '', this.addMaterial),
-        h('div', { class: 'buttons' }, add('box', 'Box'), add('sphere', 'Ball'), add('capsule', 'Capsule'))));
+        h('div', { class: 'buttons' }, ...Object.entries(addable).map(add))));
     this.element.append(this.card, this.tools);
     this.showNothing(true);
   }
@@ -73,7 +82,7 @@ export class BodiesPanel {
         h('header', {}, h('h3', { id: 'body-name' }), live ? h('span', { class: 'buttons' },
           h('button', { type: 'button', id: 'body-freeze', onclick: () => this.actions.freeze() }, 'Freeze'),
           h('button', { type: 'button', id: 'body-delete', onclick: () => this.actions.remove() }, 'Delete')) : null),
-        h('table', { class: 'state', id: 'body-state' }), h('div', { id: 'body-contacts' }));
+        h('table', { class: 'state', id: 'body-state' }), h('div', { id: 'body-joints' }), h('div', { id: 'body-contacts' }));
     }
     this.card.querySelector('#body-name')!.textContent = selection.name;
     const freeze = this.card.querySelector('#body-freeze');
@@ -88,22 +97,32 @@ export class BodiesPanel {
       ['spin', 'Spin', `${triple(selection.spin)} rad/s`],
       ['asleep', 'State', selection.fixed ? 'fixed' : selection.asleep ? 'asleep' : 'awake'],
     ];
-    if (selection.spin.length === 0) rows.splice(6, 1);
-    if (selection.batch) rows.push(['batch', 'Batch', `${selection.batch.index}: ${selection.batch.bodies} bodies, ${selection.batch.contacts} contacts`]);
+    if (selection.batch) rows.push(['batch', 'Batch', `${selection.batch.index}: ${counted(selection.batch.bodies, 'body', 'bodies')}, ${counted(selection.batch.contacts, 'contact')}`]);
     const table = this.card.querySelector('#body-state')!;
     table.replaceChildren(...rows.map(([key, label, text]) =>
       h('tr', {}, h('th', { scope: 'row' }, label), h('td', { 'data-key': key }, text))));
-    const contacts = this.card.querySelector('#body-contacts')!;
     if (!live) return;
+    this.showJoints(selection.joints);
+    const contacts = this.card.querySelector('#body-contacts')!;
     const shownContacts = selection.contacts.slice(0, 12);
     const rest = selection.contacts.length - shownContacts.length;
-    contacts.replaceChildren(h('h4', {}, `${selection.contacts.length} contact${selection.contacts.length === 1 ? '' : 's'}`));
+    contacts.replaceChildren(h('h4', {}, counted(selection.contacts.length, 'contact')));
     if (shownContacts.length === 0) return;
     contacts.append(h('table', { class: 'contacts' },
       h('tr', {}, h('th', {}, 'with'), h('th', {}, 'distance'), h('th', {}, 'impulse')),
       ...shownContacts.map((contact) => h('tr', {}, h('td', {}, contact.other), h('td', {}, quantity(contact.distance, 'm')),
         h('td', {}, quantity(Math.hypot(...contact.impulse), 'N·s'))))));
     if (rest > 0) contacts.append(h('p', { class: 'note' }, `and ${rest} more`));
+  }
+
+  private showJoints(joints: Selection['joints']): void {
+    const place = this.card.querySelector('#body-joints')!;
+    place.replaceChildren();
+    if (joints.length === 0) return;
+    place.append(h('h4', {}, counted(joints.length, 'joint')), h('table', { class: 'contacts' },
+      h('tr', {}, h('th', {}, 'kind'), h('th', {}, 'with'), h('th', {}, 'force'), h('th', {}, 'torque')),
+      ...joints.map((joint) => h('tr', {}, h('td', {}, jointKinds[joint.kind]), h('td', {}, joint.other),
+        h('td', {}, quantity(joint.force, 'N')), h('td', {}, quantity(joint.torque, 'N·m'))))));
   }
 }
 
@@ -119,6 +138,10 @@ function clamp(input: HTMLInputElement): number {
   const value = Number(input.value);
   const fallback = Number(input.defaultValue);
   return Math.min(Number(input.max), Math.max(Number(input.min), Number.isFinite(value) && input.value !== '' ? value : fallback));
+}
+
+function counted(count: number, one: string, many = `${one}s`): string {
+  return `${count} ${count === 1 ? one : many}`;
 }
 
 function triple(values: number[]): string {

@@ -62,7 +62,10 @@ class Chart {
       context.fillText(compact(part * top), left - 5, at + 3);
     }
     context.textAlign = 'center';
-    for (const t of ticks(data.from, data.to)) context.fillText(`${significant(t)} s`, x(t), height - 3);
+    for (const t of ticks(data.from, data.to)) {
+      const text = `${significant(t)} s`;
+      context.fillText(text, Math.min(x(t), width - 1 - context.measureText(text).width / 2), height - 3);
+    }
     context.save();
     context.beginPath();
     context.rect(left, 0, width - left - 6, height - bottom + 1);

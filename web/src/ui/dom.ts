@@ -76,6 +76,16 @@ export function significant(value: number, digits = 3): string {
   return text.includes('e') ? text : String(Number(text));
 }
 
+/** A number in few characters, for people: 0.00833, 2·10⁻⁵, 10⁶. */
+export function readable(value: number): string {
+  const text = significant(value, 6);
+  if (!text.includes('e')) return text;
+  const [mantissa, exponent] = text.split('e');
+  const raised = [...exponent.replace('+', '')].map((c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)])).join('');
+  const factor = Number(mantissa);
+  return factor === 1 ? `10${raised}` : `${factor}·10${raised}`;
+}
+
 /** A number for an axis: short, with k and M. */
 export function compact(value: number): string {
   if (Math.abs(value) >= 1e6) return `${significant(value / 1e6)}M`;

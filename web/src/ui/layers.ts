@@ -21,16 +21,17 @@ type Switch = Exclude<keyof ViewOptions, 'colour'>;
 export const switches: Choice<Switch>[] = [
   { key: 'points', label: 'Contact points', hint: 'Where bodies touch', shortcut: 'C', swatch: overlayHex.points },
   { key: 'normals', label: 'Normals', hint: 'Of the contacts, from B to A', shortcut: 'N', swatch: overlayHex.normals },
-  { key: 'impulses', label: 'Impulses', hint: 'Along the normal, in the last step', shortcut: 'I', swatch: overlayHex.impulses },
+  { key: 'impulses', label: 'Impulses', hint: 'Along the normal, in the last step; a line twice as long is an impulse four times as large', shortcut: 'I', swatch: overlayHex.impulses },
   { key: 'friction', label: 'Friction', hint: 'Impulses along the surface, in the last step', shortcut: 'K', swatch: overlayHex.friction },
   { key: 'moves', label: 'Correction moves', hint: 'Of the penetration correction in the last step, drawn 100 times as long', shortcut: 'M', swatch: overlayHex.moves },
   { key: 'bounds', label: 'Bounding boxes', hint: 'As the broad phase sees them', shortcut: 'B', swatch: overlayHex.bounds },
+  { key: 'joints', label: 'Joints', hint: 'Where bodies are joined, with rods, ropes and the axes of hinges and sliders', shortcut: 'J', swatch: overlayHex.joints },
   { key: 'shadows', label: 'Shadows', hint: 'Of the sun', shortcut: 'S' },
-  { key: 'grid', label: 'Grid', hint: 'Strong lines every metre, fine ones every ten centimetres', shortcut: 'G' },
+  { key: 'grid', label: 'Grid', hint: 'The scale of its lines stands below the picture', shortcut: 'G' },
 ];
 
 /** What a recording holds. */
-const recorded = new Set<string>(['material', 'asleep', 'speed', 'shadows', 'grid']);
+const recorded = new Set<string>(['material', 'asleep', 'speed', 'joints', 'shadows', 'grid']);
 
 export class LayersPanel {
   readonly element = h('div', { class: 'layers' });

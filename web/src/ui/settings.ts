@@ -1,6 +1,6 @@
 /** The dial between performance and accuracy, and every setting with its unit and range. */
 import type { FieldInfo, State, Value } from '../protocol';
-import { h, setText, significant } from './dom';
+import { h, readable, setText } from './dom';
 
 const stageTitles: Record<string, string> = {
   world: 'Time step', time: 'Time step', detection: 'Contact detection', correction: 'Penetration correction', resolution: 'Contact resolution',
@@ -36,7 +36,7 @@ export class SettingsPanel {
     ];
     const stages = [...new Set(fields.map((field) => field.stage))];
     for (const stage of stages) {
-      const group = h('fieldset', {}, h('legend', {}, stageTitles[stage] ?? stage.replaceAll('_', ' ')));
+      const group = h('fieldset', {}, h('legend', {}, stageTitles[stage] ?? title(stage)));
       for (const field of fields) if (field.stage === stage) group.append(this.row(field));
       parts.push(group);
     }
@@ -54,7 +54,7 @@ export class SettingsPanel {
       const value = state.settings[field.name];
       if (!control || value === undefined || document.activeElement === control) continue;
       if (control instanceof HTMLInputElement && control.type === 'checkbox') control.checked = value === true;
-      else control.value = typeof value === 'number' ? significant(value, 6) : String(value);
+      else control.value = typeof value === 'number' ? String(Number(value.toPrecision(6))) : String(value);
     }
   }
 
@@ -95,11 +95,15 @@ export class SettingsPanel {
   }
 }
 
+function title(stage: string): string {
+  return stage.charAt(0).toUpperCase() + stage.slice(1).replaceAll('_', ' ');
+}
+
 function rangeOf(field: FieldInfo): string {
   if (field.kind !== 'whole' && field.kind !== 'number') return '';
   if (field.minimum !== null && field.minimum > 0 && field.minimum < 1e-300) {
-    return `above 0${field.maximum === null || field.maximum > 1e15 ? '' : `, up to ${significant(field.maximum)}`}`;
+    return `above 0${field.maximum === null || field.maximum > 1e15 ? '' : `, up to ${readable(field.maximum)}`}`;
   }
-  const from = field.minimum === null ? '−∞' : significant(field.minimum);
-  return `${from} to ${field.maximum === null || field.maximum > 1e15 ? '∞' : significant(field.maximum)}`;
+  const from = field.minimum === null ? '−∞' : readable(field.minimum);
+  return `${from} to ${field.maximum === null || field.maximum > 1e15 ? '∞' : readable(field.maximum)}`;
 }

@@ -17,6 +17,7 @@ export class Shell {
   readonly canvasHolder = h('main', { class: 'holder' });
   readonly title = h('div', { class: 'title' });
   readonly status = h('div', { class: 'status', id: 'status', role: 'status' });
+  readonly pictures = h('div', { class: 'status pictures', id: 'pictures' });
   readonly transport = h('div', { class: 'transport' });
   readonly legend = h('div', { class: 'legend', id: 'legend' });
   readonly labels = h('div', { class: 'labels' });
@@ -30,7 +31,7 @@ export class Shell {
 
   constructor(root: HTMLElement, private readonly actions: ShellActions) {
     this.panelButton = iconButton('panel', 'Panel (P)', () => this.togglePanel(), 'panel-button');
-    const bar = h('header', { class: 'topbar' }, this.title, this.status, h('div', { class: 'tools' },
+    const bar = h('header', { class: 'topbar' }, this.title, this.status, this.pictures, h('div', { class: 'tools' },
       iconButton('camera', 'Show everything (0)', actions.camera, 'camera-button'),
       iconButton('picture', 'Save a picture', actions.picture, 'picture-button'),
       iconButton('theme', 'Dark or light (D)', actions.theme, 'theme-button'),
@@ -86,6 +87,8 @@ export class Shell {
     while (this.toasts.children.length > 3) this.toasts.firstElementChild?.remove();
     setTimeout(() => toast.remove(), kind === 'error' ? 9000 : 4000);
   }
+
+  showPictures(perSecond: number): void { setText(this.pictures, `${Math.round(perSecond) || '–'} pictures/s`); }
 
   showPlaying(button: HTMLButtonElement, playing: boolean): void {
     setIcon(button, playing ? 'pause' : 'play', playing ? 'Pause (Space)' : 'Play (Space)');

@@ -4,7 +4,7 @@ import {
   SphereGeometry, Vector3, type Material,
 } from 'three';
 import { asleep, fixed, present, type BodyInfo, type ColourMode, type Frame, type Roster, type ShapeInfo } from '../model';
-import { compoundGeometry, hullGeometry } from './solids';
+import { compoundGeometry, domeGeometry, hullGeometry } from './solids';
 import {
   asleepColour, awakeColour, categorical, fixedColour, noneColour, qualitative, sequential, toLinear, type Rgb,
 } from './palette';
@@ -52,10 +52,11 @@ export class Bodies {
     this.applyEmphasis();
   }
 
-  /** Good materials, or ones for software rendering. */
+  /** Good materials and fine triangles, or ones for software rendering. */
   setFine(fine: boolean): void {
+    if (fine === this.fine) return;
     this.fine = fine;
-    for (const batch of this.batches) batch.mesh.material = this.material();
+    if (this.roster) this.setRoster(this.roster);
   }
 
   /** Highlights some bodies. @param slots slot → strength 0 to 1 */
@@ -109,7 +110,7 @@ export class Bodies {
 
   private makeBatch(members: BodyInfo[], roster: Roster): Batch {
     const count = members.length;
-    const geometry = makeGeometry(members[0], count);
+    const geometry = makeGeometry(members[0], this.fine ? fineness(count) : coarseness(count));
     const scale = new Float32Array(3 * count);
     const kinds = new Float32Array(3 * count);
     const halves = new Float32Array(3 * count);
@@ -117,7 +118,8 @@ export class Bodies {
       const half = halfExtents(body);
       scale.set(half, 3 * i);
       halves.set(half, 3 * i);
-      if (body.shape.type !== 'box') halves[3 * i] = -halves[3 * i];
+      if (body.shape.type !== 'box') halves[3 * i] *= -1;
+      if (body.shape.type === 'sphere') halves[3 * i + 1] *= -1;
       const name = roster.materials[body.material]?.name ?? '';
       kinds.set([patternOf(name), ((body.slot * 0.6180339887) % 1), 0], 3 * i);
     });
@@ -128,6 +130,7 @@ export class Bodies {
     geometry.setAttribute('aHalf', new InstancedBufferAttribute(halves, 3));
     const mesh = new InstancedMesh(geometry, this.material(), count);
     mesh.frustumCulled = false;
+    if (members[0].shape.type === 'sphere') mesh.customDepthMaterial = this.surfaces.ballDepth;
     mesh.castShadow = true;
     mesh.receiveShadow = true;
     this.group.add(mesh);
@@ -192,9 +195,20 @@ function halfExtents({ shape }: BodyInfo): [number, number, number] {
   return [1, 1, 1];
 }
 
+/** Segments around a round body and from pole to pole. */
+type Fineness = [number, number];
+
 /** Fewer triangles where there are many bodies. */
-function makeGeometry({ shape }: BodyInfo, count: number): BufferGeometry {
-  const [around, along] = count > 600 ? [14, 9] : count > 100 ? [24, 16] : [40, 28];
+function fineness(count: number): Fineness {
+  return count > 600 ? [24, 8] : count > 100 ? [32, 16] : [48, 28];
+}
+
+/** Software rendering takes its time for triangles. */
+function coarseness(count: number): Fineness {
+  return count > 100 ? [12, 4] : [24, 8];
+}
+
+function makeGeometry({ shape }: BodyInfo, [around, along]: Fineness): BufferGeometry {
   const actual = (part: ShapeInfo): BufferGeometry => {
     switch (part.type) {
       case 'box': return new BoxGeometry(...part.size);
@@ -210,7 +224,7 @@ function makeGeometry({ shape }: BodyInfo, count: number): BufferGeometry {
   };
   switch (shape.type) {
     case 'box': return actual({ type: 'box', size: [2, 2, 2] });
-    case 'sphere': return actual({ type: 'sphere', radius: 1 });
+    case 'sphere': return domeGeometry(around, along / 2);
     case 'cylinder': return actual({ type: 'cylinder', radius: 1, length: 2 });
     default: return actual(shape);
   }

@@ -2,7 +2,18 @@
 import { BufferGeometry, DoubleSide, Float32BufferAttribute, FrontSide, Group, Mesh, MeshLambertMaterial, Quaternion, Vector3, type WebGLProgramParametersWithUniforms } from 'three';
 import { present, type Frame, type Roster } from '../model';
 
-interface Plane { normal: Vector3; offset: number; slot: number }
+/** A half-space as it stands now: normal·p ≤ offset is solid. */
+export interface Plane { normal: Vector3; offset: number; slot: number }
+
+export function planesOf(roster: Roster, frame: Frame): Plane[] {
+  const planes: Plane[] = [];
+  for (const { shape, slot } of roster.bodies.values()) {
+    if (shape.type !== 'plane' || slot >= frame.slots || !(frame.flags[slot] & present)) continue;
+    const normal = new Vector3(...shape.normal).normalize().applyQuaternion(new Quaternion().fromArray(frame.orientation, 4 * slot));
+    planes.push({ normal, offset: shape.offset + normal.dot(new Vector3().fromArray(frame.position, 3 * slot)), slot });
+  }
+  return planes;
+}
 
 const vertexHead = 'varying vec3 vWorld;\n';
 const vertexBody = '#include <begin_vertex>\nvWorld = position;\n';
@@ -57,6 +68,11 @@ export class Ground {
     for (const child of this.group.children) ((child as Mesh).material as MeshLambertMaterial).color.set(ground);
   }
 
+  /** The kind of shadows changed. */
+  refresh(): void {
+    for (const child of this.group.children) ((child as Mesh).material as MeshLambertMaterial).needsUpdate = true;
+  }
+
   setGrid(visible: boolean): void {
     this.uniforms.uGrid.value = visible ? 1 : 0;
   }
@@ -70,18 +86,8 @@ export class Ground {
 
   /** Builds the polygons anew if a half-space came, went or moved. */
   update(roster: Roster, frame: Frame, centre: Vector3, radius: number): void {
-    const planes: Plane[] = [];
-    let key = '';
-    for (const body of roster.bodies.values()) {
-      if (body.shape.type !== 'plane' || body.slot >= frame.slots || !(frame.flags[body.slot] & present)) continue;
-      const turn = new Quaternion().fromArray(frame.orientation, 4 * body.slot);
-      const normal = new Vector3(...body.shape.normal);
-      const length = normal.length();
-      normal.divideScalar(length).applyQuaternion(turn);
-      const offset = body.shape.offset + normal.dot(new Vector3().fromArray(frame.position, 3 * body.slot));
-      planes.push({ normal, offset, slot: body.slot });
-      key += `${body.slot}:${normal.toArray().map((x) => x.toFixed(5)).join(',')}:${offset.toFixed(5)};`;
-    }
+    const planes = planesOf(roster, frame);
+    let key = planes.map(({ slot, normal, offset }) => `${slot}:${normal.toArray().map((x) => x.toFixed(5)).join(',')}:${offset.toFixed(5)};`).join('');
     key += `${roster.epoch > 0 ? radius.toPrecision(2) : ''}`;
     if (key === this.key) return;
     this.key = key;

@@ -1,13 +1,15 @@
 /** What the simulation did, drawn over the bodies: contacts, normals, impulses, friction, moves, bounds, springs. */
 import {
-  BufferAttribute, BufferGeometry, DynamicDrawUsage, Group, LineBasicMaterial, LineSegments, Points, PointsMaterial,
+  BufferAttribute, BufferGeometry, DynamicDrawUsage, Group, LineBasicMaterial, LineSegments, Matrix4, Points, PointsMaterial, Quaternion,
+  Vector3,
 } from 'three';
-import { present, type Frame, type ViewOptions } from '../model';
+import { distanceJoint, hingeJoint, noSlot, present, ropeJoint, sliderJoint, type BodyInfo, type Frame, type Joints, type ViewOptions } from '../model';
+import { boxOf } from './solids';
 
 /** Colours of the overlays, also for the legend. */
 export const overlayHex = {
   points: '#d55e00', normals: '#0072b2', impulses: '#009e73', friction: '#cc79a7', moves: '#e69f00', bounds: '#7d8590',
-  springs: '#e69f00',
+  springs: '#e69f00', joints: '#9561c9', outline: '#2f9bff',
 };
 
 /** Line segments that grow with their number. */
@@ -49,6 +51,13 @@ function show(geometry: BufferGeometry, points: Float32Array, count: number): vo
   geometry.setDrawRange(0, count);
 }
 
+function dots(colour: string, size: number): Points {
+  const points = new Points(new BufferGeometry(), new PointsMaterial({ color: colour, size, sizeAttenuation: false, depthTest: false, transparent: true }));
+  points.frustumCulled = false;
+  points.renderOrder = 3;
+  return points;
+}
+
 export class Overlays {
   readonly group = new Group();
   private readonly lines = {
@@ -58,17 +67,15 @@ export class Overlays {
     moves: new Segments(overlayHex.moves, false),
     bounds: new Segments(overlayHex.bounds, true),
     springs: new Segments(overlayHex.springs, false),
+    joints: new Segments(overlayHex.joints, false),
+    outline: new Segments(overlayHex.outline, false),
   };
-  private readonly points = new Points(
-    new BufferGeometry(),
-    new PointsMaterial({ color: overlayHex.points, size: 5, sizeAttenuation: false, depthTest: false, transparent: true }),
-  );
+  private readonly points = dots(overlayHex.points, 5);
+  private readonly pins = dots(overlayHex.joints, 8);
   private impulseScale = 0;
 
   constructor() {
-    this.points.frustumCulled = false;
-    this.points.renderOrder = 3;
-    this.group.add(this.points);
+    this.group.add(this.points, this.pins);
     for (const segments of Object.values(this.lines)) this.group.add(segments.object);
   }
 
@@ -85,6 +92,25 @@ export class Overlays {
     const s = frame.springs;
     for (let i = 0; s && i + 5 < s.length; i += 6) this.lines.springs.add(s[i], s[i + 1], s[i + 2], s[i + 3], s[i + 4], s[i + 5]);
     this.lines.springs.end();
+    this.drawJoints(options.joints ? frame.joints : undefined, frame, size);
+  }
+
+  /** A box around the selected body. */
+  outline(frame: Frame, body: BodyInfo | undefined): void {
+    const lines = this.lines.outline;
+    lines.begin();
+    const box = body && body.slot < frame.slots && frame.flags[body.slot] & present ? boxOf(body.shape) : null;
+    if (body && box) {
+      const place = new Matrix4().compose(new Vector3().fromArray(frame.position, 3 * body.slot),
+        new Quaternion().fromArray(frame.orientation, 4 * body.slot), new Vector3(1, 1, 1));
+      box.expandByScalar(0.03 * box.getSize(new Vector3()).length());
+      const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => new Vector3(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
+        i & 4 ? box.max.z : box.min.z).applyMatrix4(place));
+      for (const bit of [1, 2, 4]) {
+        for (let i = 0; i < 8; i++) if (!(i & bit)) lines.add(...corners[i].toArray(), ...corners[i | bit].toArray());
+      }
+    }
+    lines.end();
   }
 
   private drawContacts(frame: Frame, options: ViewOptions, size: number): void {
@@ -95,7 +121,6 @@ export class Overlays {
     if (c) {
       if (options.impulses || options.friction) this.followImpulses(c.impulse);
       const length = 0.45 * size;
-      const scale = this.impulseScale > 0 ? (1.5 * size) / this.impulseScale : 0;
       for (let i = 0; i < c.count; i++) {
         const at = 3 * i;
         const x = c.point[at], y = c.point[at + 1], z = c.point[at + 2];
@@ -104,6 +129,7 @@ export class Overlays {
         const jx = c.impulse[at], jy = c.impulse[at + 1], jz = c.impulse[at + 2];
         if (jx === 0 && jy === 0 && jz === 0) continue;
         const j = jx * nx + jy * ny + jz * nz;
+        const scale = (1.5 * size) / Math.sqrt(this.impulseScale * Math.hypot(jx, jy, jz));
         if (options.impulses) impulses.add(x, y, z, x + j * nx * scale, y + j * ny * scale, z + j * nz * scale);
         if (options.friction) friction.add(x, y, z, x + (jx - j * nx) * scale, y + (jy - j * ny) * scale, z + (jz - j * nz) * scale);
       }
@@ -111,7 +137,7 @@ export class Overlays {
     for (const lines of [normals, impulses, friction]) lines.end();
   }
 
-  /** The longest arrow belongs to the largest impulse of the last moments. */
+  /** The longest line belongs to the largest impulse of the last moments; others are as long as the root of their part. */
   private followImpulses(impulse: Float32Array): void {
     let largest = 0;
     for (let i = 0; i < impulse.length; i += 3) largest = Math.max(largest, Math.hypot(impulse[i], impulse[i + 1], impulse[i + 2]));
@@ -129,6 +155,31 @@ export class Overlays {
       const x = frame.position[at], y = frame.position[at + 1], z = frame.position[at + 2];
       this.lines.moves.add(x, y, z, x + m[at] * scale, y + m[at + 1] * scale, z + m[at + 2] * scale);
     }
+  }
+
+  /** A pin where bodies are joined, tied to their origins; rods and ropes as they are, hinges and sliders with their axis. */
+  private drawJoints(joints: Joints | undefined, frame: Frame, size: number): void {
+    const lines = this.lines.joints;
+    const pins: number[] = [];
+    lines.begin();
+    for (let i = 0; joints && i < joints.count; i++) {
+      const [ax, ay, az, bx, by, bz, x, y, z] = joints.points.subarray(9 * i, 9 * i + 9);
+      pins.push(ax, ay, az);
+      const kind = joints.kind[i];
+      if (kind === distanceJoint || kind === ropeJoint) {
+        pins.push(bx, by, bz);
+        lines.add(ax, ay, az, bx, by, bz);
+        continue;
+      }
+      for (const slot of [joints.a[i], joints.b[i]]) {
+        const at = 3 * slot;
+        if (slot !== noSlot && slot < frame.slots) lines.add(ax, ay, az, frame.position[at], frame.position[at + 1], frame.position[at + 2]);
+      }
+      if (kind !== hingeJoint && kind !== sliderJoint) continue;
+      lines.add(bx - size * x, by - size * y, bz - size * z, bx + size * x, by + size * y, bz + size * z);
+    }
+    lines.end();
+    show(this.pins.geometry, new Float32Array(pins), pins.length / 3);
   }
 
   private drawBounds(frame: Frame): void {

@@ -1,6 +1,6 @@
 /** One world in three dimensions: bodies, ground, overlays and the light that follows their extent. */
 import { DirectionalLight, HemisphereLight, Scene, Vector3, type Texture } from 'three';
-import { fixed, present, type Frame, type Roster, type ViewOptions } from '../model';
+import { defaultOptions, fixed, present, type Frame, type Roster, type ViewOptions } from '../model';
 import { Bodies } from './bodies';
 import { Ground } from './ground';
 import { Overlays } from './overlays';
@@ -9,8 +9,8 @@ import { sizeOf } from './solids';
 export type Theme = 'light' | 'dark';
 
 const looks = {
-  light: { back: '#eceff2', ground: '#e3e6e9', line: 0.74, sky: '#ffffff', earth: '#b9b2a8', hemisphere: 1.25, sun: 2.5 },
-  dark: { back: '#14171b', ground: '#565d66', line: 1.6, sky: '#c3d2e6', earth: '#2b2723', hemisphere: 1.0, sun: 2.4 },
+  light: { back: '#eceff2', ground: '#e3e6e9', line: 0.74, sky: '#ffffff', earth: '#b9b2a8', hemisphere: 1.25, sun: 2.5, shade: 1 },
+  dark: { back: '#14171b', ground: '#565d66', line: 1.6, sky: '#c3d2e6', earth: '#2b2723', hemisphere: 1.0, sun: 2.4, shade: 0.82 },
 };
 
 export interface Extent { centre: Vector3; radius: number; size: number }
@@ -23,6 +23,8 @@ export class WorldPanel {
   roster: Roster | null = null;
   frame: Frame | null = null;
   extent: Extent = { centre: new Vector3(), radius: 1, size: 0.1 };
+  private selected: number | null = null;
+  private options: ViewOptions = defaultOptions;
   private readonly sun = new DirectionalLight('#fff4e4', 2.5);
   private readonly sky = new HemisphereLight('#ffffff', '#b9b2a8', 1);
 
@@ -30,6 +32,7 @@ export class WorldPanel {
     this.sun.castShadow = true;
     this.sun.shadow.bias = -0.0006;
     this.sun.shadow.normalBias = 0.006;
+    this.sun.shadow.radius = 2;
     this.scene.add(this.sun, this.sun.target, this.sky, this.ground.group, this.bodies.group, this.overlays.group);
     this.setTheme('light');
   }
@@ -40,6 +43,7 @@ export class WorldPanel {
     this.sky.groundColor.set(look.earth);
     this.sky.intensity = look.hemisphere;
     this.sun.intensity = look.sun;
+    this.sun.shadow.intensity = look.shade;
     const c = look.back.match(/[0-9a-f]{2}/g)!.map((x) => parseInt(x, 16) / 255);
     this.ground.setTheme(look.ground, new Vector3(c[0], c[1], c[2]), look.line);
   }
@@ -65,16 +69,35 @@ export class WorldPanel {
     this.bodies.setRoster(roster);
   }
 
+  /** Good materials, or ones for software rendering. */
+  setFine(fine: boolean): void {
+    this.bodies.setFine(fine);
+    this.ground.refresh();
+    if (this.frame) this.setFrame(this.frame, this.options);
+  }
+
+  /** [m] between the strong lines of the grid; the fine ones are a tenth of it apart. */
+  get gridStep(): number { return 10 ** Math.floor(Math.log10(1.6 * this.extent.radius)); }
+
+  /** Highlights a body. */
+  select(slot: number | null): void {
+    this.selected = slot;
+    this.bodies.emphasise(new Map(slot === null ? [] : [[slot, 1]]));
+    if (this.frame) this.overlays.outline(this.frame, slot === null ? undefined : this.roster?.bodies.get(slot));
+  }
+
   /** @return true if it was drawn: frames of another epoch are not */
   setFrame(frame: Frame, options: ViewOptions): boolean {
     if (!this.roster || frame.epoch !== this.roster.epoch) return false;
     const first = this.frame === null;
     this.frame = frame;
+    this.options = options;
     if (first) this.extent = extentOf(this.roster, frame);
     this.bodies.update(frame, options.colour);
     this.overlays.update(frame, options, this.extent.size);
+    this.overlays.outline(frame, this.selected === null ? undefined : this.roster.bodies.get(this.selected));
     const { centre, radius } = this.extent;
-    this.ground.setExtent(centre, radius, radius > 40 ? 10 : 1);
+    this.ground.setExtent(centre, radius, this.gridStep);
     this.ground.setGrid(options.grid);
     this.ground.update(this.roster, frame, centre, radius);
     this.aimSun(frame);

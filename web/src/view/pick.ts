@@ -1,6 +1,6 @@
 /** Which body lies under the pointer: exact ray tests against the shapes, nothing to do with triangles. */
 import { Quaternion, Ray, Vector3 } from 'three';
-import { present, type Frame, type Roster, type ShapeInfo } from '../model';
+import { present, type BodyInfo, type Frame, type Roster, type ShapeInfo } from '../model';
 import { compoundDistance, hullDistance } from './solids';
 
 export interface Hit { slot: number; distance: number; point: Vector3 }
@@ -11,7 +11,13 @@ const direction = new Vector3();
 
 /** @return the nearest body that is not a half-space, in front of any half-space that faces the ray */
 export function pick(ray: Ray, roster: Roster, frame: Frame): Hit | null {
-  let best: Hit | null = null;
+  const { body, distance } = nearest(ray, roster, frame);
+  return body && body.shape.type !== 'plane' ? { slot: body.slot, distance, point: ray.at(distance, new Vector3()) } : null;
+}
+
+/** What the ray meets first, half-spaces included. */
+export function nearest(ray: Ray, roster: Roster, frame: Frame): { body: BodyInfo | null; distance: number } {
+  let best: BodyInfo | null = null;
   let limit = Infinity;
   for (const body of roster.bodies.values()) {
     const slot = body.slot;
@@ -22,9 +28,9 @@ export function pick(ray: Ray, roster: Roster, frame: Frame): Hit | null {
     const distance = distanceTo(body.shape, origin, direction);
     if (!(distance < limit)) continue;
     limit = distance;
-    best = body.shape.type === 'plane' ? null : { slot, distance, point: ray.at(distance, new Vector3()) };
+    best = body;
   }
-  return best;
+  return { body: best, distance: limit };
 }
 
 /** Distance along a ray in the frame of the body, or infinity. */

@@ -1,9 +1,30 @@
 /** Shapes that have no dimensions of their own: hulls of points, and compounds of other shapes. */
-import { Matrix4, Quaternion, Ray, Vector3, type BufferGeometry } from 'three';
+import { Box3, BufferGeometry, Float32BufferAttribute, Matrix4, Quaternion, Ray, Vector3 } from 'three';
 import { ConvexGeometry } from 'three/addons/geometries/ConvexGeometry.js';
 import { ConvexHull } from 'three/addons/math/ConvexHull.js';
 import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
 import type { PartInfo, ShapeInfo } from '../model';
+
+/** The half of a unit ball with z ≥ 0; the vertex shader turns it to the camera, so that the other half is never missed. */
+export function domeGeometry(around: number, rings: number): BufferGeometry {
+  const points = [0, 0, 1];
+  const triangles: number[] = [];
+  const at = (ring: number, i: number): number => 1 + (ring - 1) * around + (i % around);
+  for (let ring = 1; ring <= rings; ring++) {
+    const down = (Math.PI / 2) * (ring / rings);
+    for (let i = 0; i < around; i++) {
+      const turn = (2 * Math.PI * i) / around;
+      points.push(Math.sin(down) * Math.cos(turn), Math.sin(down) * Math.sin(turn), Math.cos(down));
+      if (ring === 1) triangles.push(0, at(1, i), at(1, i + 1));
+      else triangles.push(at(ring - 1, i), at(ring, i), at(ring, i + 1), at(ring - 1, i), at(ring, i + 1), at(ring - 1, i + 1));
+    }
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new Float32BufferAttribute(points, 3));
+  geometry.setAttribute('normal', new Float32BufferAttribute(points, 3));
+  geometry.setIndex(triangles);
+  return geometry;
+}
 
 const vectors = (points: number[][]): Vector3[] => points.map(([x, y, z]) => new Vector3(x, y, z));
 
@@ -39,6 +60,24 @@ export function sizeOf(shape: ShapeInfo): number {
     case 'hull': return 2 * Math.max(...distances(shape.points));
     case 'compound': return Math.max(...shape.parts.map((part) => 2 * Math.hypot(...part.position) + sizeOf(part.shape)));
     case 'plane': return Infinity;
+  }
+}
+
+/** The box around a shape, in its own frame; none for half-spaces. */
+export function boxOf(shape: ShapeInfo): Box3 | null {
+  const about = (x: number, y: number, z: number): Box3 => new Box3(new Vector3(-x, -y, -z), new Vector3(x, y, z));
+  switch (shape.type) {
+    case 'box': return about(shape.size[0] / 2, shape.size[1] / 2, shape.size[2] / 2);
+    case 'sphere': return about(shape.radius, shape.radius, shape.radius);
+    case 'capsule': return about(shape.radius, shape.radius, shape.radius + shape.length / 2);
+    case 'cylinder': return about(shape.radius, shape.radius, shape.length / 2);
+    case 'hull': return new Box3().setFromPoints(vectors(shape.points));
+    case 'compound': return shape.parts.reduce((box, part) => {
+      const place = new Matrix4().compose(new Vector3(...part.position), turnOf(part), new Vector3(1, 1, 1));
+      const inner = boxOf(part.shape);
+      return inner ? box.union(inner.applyMatrix4(place)) : box;
+    }, new Box3());
+    case 'plane': return null;
   }
 }
 

@@ -1,6 +1,6 @@
 /** The canvas: renderer, camera, one or two panels side by side, and the quality that the machine can afford. */
 import {
-  ACESFilmicToneMapping, BackSide, Color, Mesh, MeshBasicMaterial, PCFShadowMap, PCFSoftShadowMap, PerspectiveCamera, PMREMGenerator,
+  ACESFilmicToneMapping, BackSide, Color, Mesh, MeshBasicMaterial, BasicShadowMap, PCFShadowMap, PerspectiveCamera, PMREMGenerator,
   Raycaster, Scene, SphereGeometry, Vector2, Vector3, WebGLRenderer, type Ray, type Texture,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
@@ -8,13 +8,13 @@ import { WorldPanel, type Theme } from './panel';
 
 export type Quality = 'high' | 'medium' | 'low' | 'lowest';
 
-interface QualityPlan { pixels: number; fine: boolean; shadow: number; shadowEvery: number }
+interface QualityPlan { pixels: number; fine: boolean; soft: boolean; shadow: number; shadowEvery: number }
 
 const plans: Record<Quality, QualityPlan> = {
-  high: { pixels: 2, fine: true, shadow: 2048, shadowEvery: 1 },
-  medium: { pixels: 1, fine: true, shadow: 1024, shadowEvery: 1 },
-  low: { pixels: 0.8, fine: false, shadow: 1024, shadowEvery: 3 },
-  lowest: { pixels: 0.5, fine: false, shadow: 512, shadowEvery: 6 },
+  high: { pixels: 2, fine: true, soft: true, shadow: 2048, shadowEvery: 1 },
+  medium: { pixels: 1, fine: true, soft: true, shadow: 1024, shadowEvery: 1 },
+  low: { pixels: 0.8, fine: false, soft: false, shadow: 1024, shadowEvery: 3 },
+  lowest: { pixels: 0.5, fine: false, soft: false, shadow: 512, shadowEvery: 6 },
 };
 const order: Quality[] = ['high', 'medium', 'low', 'lowest'];
 
@@ -38,7 +38,8 @@ export class Stage {
   private slowest = 0;
 
   constructor(parent: HTMLElement) {
-    this.renderer = new WebGLRenderer({ antialias: true, powerPreference: 'high-performance', preserveDrawingBuffer: true });
+    const software = isSoftware();
+    this.renderer = new WebGLRenderer({ antialias: !software, powerPreference: 'high-performance' });
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.autoUpdate = false;
@@ -55,7 +56,7 @@ export class Stage {
     this.controls.addEventListener('change', () => this.touch());
     this.fixedQuality = new URLSearchParams(location.search).has('quality');
     const wished = new URLSearchParams(location.search).get('quality') as Quality | null;
-    this.setQuality(wished && order.includes(wished) ? wished : this.isSoftware() ? 'low' : 'high');
+    this.setQuality(wished && order.includes(wished) ? wished : software ? 'low' : 'high');
     new ResizeObserver(() => this.resize()).observe(parent);
     this.resize();
   }
@@ -184,8 +185,8 @@ export class Stage {
   private setQuality(quality: Quality): void {
     this.quality = quality;
     const plan = plans[quality];
-    this.renderer.shadowMap.type = quality === 'high' ? PCFSoftShadowMap : PCFShadowMap;
-    for (const panel of this.panels) panel.bodies.setFine(plan.fine);
+    this.renderer.shadowMap.type = plan.soft ? PCFShadowMap : BasicShadowMap;
+    for (const panel of this.panels) panel.setFine(plan.fine);
     this.applyEnvironment();
     this.resize();
   }
@@ -216,13 +217,6 @@ export class Stage {
     }
   }
 
-  private isSoftware(): boolean {
-    const gl = this.renderer.getContext();
-    const info = gl.getExtension('WEBGL_debug_renderer_info');
-    const name = info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : '';
-    return /swiftshader|llvmpipe|software|basic render/i.test(name);
-  }
-
   /** A sky with a few soft lamps for what iron reflects; made after the first picture because it takes a moment. */
   private makeEnvironment(): void {
     if (this.environment) return;
@@ -250,4 +244,13 @@ export class Stage {
       panel.setEnvironment(fine ? this.environment : null, this.theme === 'dark' ? 0.5 : 0.75);
     }
   }
+}
+
+/** Whether pictures are drawn by the processor: asked of a context of its own, since smoothing is chosen with the first one. */
+function isSoftware(): boolean {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const info = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = gl && info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }

@@ -1,6 +1,6 @@
 /** The surface of bodies: oak, iron and granite made of noise, or a flat colour of a layer. */
 import {
-  Data3DTexture, LinearFilter, MeshLambertMaterial, MeshStandardMaterial, RedFormat, RepeatWrapping,
+  Data3DTexture, LinearFilter, MeshDepthMaterial, MeshLambertMaterial, MeshStandardMaterial, RedFormat, RepeatWrapping, RGBADepthPacking,
   type WebGLProgramParametersWithUniforms,
 } from 'three';
 
@@ -41,18 +41,34 @@ function makeNoise(): Data3DTexture {
 const vertexHead = /* glsl */ `
 attribute vec3 aTint;
 attribute vec3 aKind; // pattern, seed, emphasis
-attribute vec3 aHalf; // half extents of a box [m]; a negative x marks a round body
+attribute vec3 aHalf; // half extents of a box [m]; a negative x marks a round body, a negative y as well a ball
 varying vec3 vTint;
 varying vec3 vKind;
 varying vec3 vHalf;
 varying vec3 vInner; // [m, B]
+vec3 onSurface; // of the unit shape
+`;
+/** Turns the half that a ball is drawn as: in W along an axis, given in B. */
+const turnDome = /* glsl */ `
+vec3 turnDome(vec3 p, vec3 axis) {
+  vec3 x = normalize(cross(abs(axis.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0), axis));
+  vec3 w = p.x * x + p.y * cross(axis, x) + p.z * axis;
+  return (transpose(mat3(instanceMatrix)) * w) / max(length(instanceMatrix[0].xyz), 1e-9);
+}
+`;
+const vertexNormal = /* glsl */ `
+onSurface = position;
+if (aHalf.y < 0.0) onSurface = turnDome(position, normalize(cameraPosition - instanceMatrix[3].xyz));
+#include <beginnormal_vertex>
+if (aHalf.y < 0.0) objectNormal = onSurface;
 `;
 const vertexBody = /* glsl */ `
 #include <begin_vertex>
+transformed = onSurface;
 vTint = aTint;
 vKind = aKind;
 vHalf = aHalf;
-vInner = position * abs(aHalf);
+vInner = onSurface * abs(aHalf);
 `;
 const fragmentHead = /* glsl */ `
 uniform float uFlat;
@@ -121,7 +137,9 @@ diffuseColor.rgb = surfaceColour();
 
 function patch(shader: WebGLProgramParametersWithUniforms, uniforms: SurfaceUniforms): void {
   Object.assign(shader.uniforms, uniforms);
-  shader.vertexShader = vertexHead + shader.vertexShader.replace('#include <begin_vertex>', vertexBody);
+  shader.vertexShader = vertexHead + turnDome + shader.vertexShader
+    .replace('#include <beginnormal_vertex>', vertexNormal)
+    .replace('#include <begin_vertex>', vertexBody);
   shader.fragmentShader = fragmentHead + shader.fragmentShader
     .replace('#include <color_fragment>', fragmentColour)
     .replace('#include <roughnessmap_fragment>', 'float roughnessFactor = surfaceRoughness;')
@@ -133,10 +151,16 @@ export class Surfaces {
   readonly uniforms: SurfaceUniforms = { uFlat: { value: 0 }, uNoise: { value: makeNoise() } };
   readonly fine = new MeshStandardMaterial();
   readonly plain = new MeshLambertMaterial();
+  /** of the shadows of balls: the half that looks away from the sun, as of other bodies */
+  readonly ballDepth = new MeshDepthMaterial({ depthPacking: RGBADepthPacking });
 
   constructor() {
     for (const material of [this.fine, this.plain]) {
       material.onBeforeCompile = (shader) => patch(shader, this.uniforms);
     }
+    this.ballDepth.onBeforeCompile = (shader) => {
+      shader.vertexShader = turnDome + shader.vertexShader.replace('#include <begin_vertex>',
+        'vec3 transformed = turnDome(position, -vec3(viewMatrix[0][2], viewMatrix[1][2], viewMatrix[2][2]));');
+    };
   }
 }
