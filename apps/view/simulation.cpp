@@ -66,7 +66,7 @@ struct Simulation::Impl {
         std::variant<Joined, Left, Command> content;
     };
     struct Viewer {
-        Layers layers = 0;
+        Layers layers = bit(Layer::joints);  ///< the first picture shows how far they reach
         std::optional<BodyId> selected;
         bool selection_due = false;
     };

@@ -12,7 +12,7 @@ export async function makeFilm(
   const holder = document.createElement('main');
   holder.style.cssText = `position:fixed;left:0;top:0;width:${order.width}px;height:${order.height}px`;
   root.append(holder);
-  const stage = new Stage(holder);
+  const stage = new Stage(holder, 'film');
   const panel = stage.panels[0];
   panel.setRoster(clip.roster);
   stage.setTheme(order.theme);

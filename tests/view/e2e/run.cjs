@@ -2,35 +2,21 @@
 // Exit code 77 (skipped) only where there is no Chromium.
 'use strict';
 const assert = require('node:assert/strict');
-const { execFileSync, spawn } = require('node:child_process');
+const { execFileSync } = require('node:child_process');
 const fs = require('node:fs');
 const os = require('node:os');
 const path = require('node:path');
 
+const { browserPath, endAll, launch, serve: serveCairn, until } = require('./browser.cjs');
+
 const [cairn, screenshots] = process.argv.slice(2).map((p) => path.resolve(p));
-const browserPath = process.env.CAIRN_CHROMIUM
-  ?? ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((p) => fs.existsSync(p));
-if (!browserPath) {
-  console.log('skipped: there is no Chromium; install the package chromium to run the viewer in a browser');
-  process.exit(77);
-}
-const { chromium } = require('playwright-core');
+browserPath();
 
 const scratch = fs.mkdtempSync(path.join(os.tmpdir(), 'cairn-e2e-'));
 fs.mkdirSync(screenshots, { recursive: true });
-const patience = 60000;
 let failures = 0;
-const children = [];
 
-/** Starts cairn view and gives its address. */
-function serve(...subjects) {
-  const child = spawn(cairn, ['view', ...subjects, '--no-open', '--port', '0'], { stdio: ['ignore', 'pipe', 'ignore'] });
-  children.push(child);
-  return new Promise((resolve, reject) => {
-    child.stdout.on('data', (data) => resolve({ address: String(data).trim(), child }));
-    child.on('exit', (code) => reject(new Error(`cairn view ended with ${code}`)));
-  });
-}
+const serve = (...subjects) => serveCairn(cairn, ...subjects);
 
 function run(...words) {
   return execFileSync(cairn, words, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'inherit'] });
@@ -53,13 +39,6 @@ async function test(name, work) {
   }
 }
 
-/** Waits until an expression or function on the page is true; by asking, since the page's policy forbids it to evaluate. */
-async function until(page, expression, argument) {
-  for (const end = Date.now() + patience; Date.now() < end; await new Promise((resolve) => setTimeout(resolve, 40))) {
-    if (await page.evaluate(expression, argument)) return;
-  }
-  throw new Error(`this did not become true: ${expression}`);
-}
 const textOf = (page, selector) => page.locator(selector).innerText();
 const shot = (page, name) => page.screenshot({ path: path.join(screenshots, `${name}.png`) });
 
@@ -291,25 +270,19 @@ async function recordings(browser) {
 }
 
 (async () => {
-  const browser = await chromium.launch({
-    executablePath: browserPath,
-    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--disable-dev-shm-usage'],
-  });
+  const browser = await launch();
   try {
     await live(browser);
     await recordings(browser);
   } finally {
     await browser.close();
-    for (const child of children) {
-      child.removeAllListeners('exit');
-      if (child.exitCode === null) child.kill('SIGKILL');
-    }
+    endAll();
     fs.rmSync(scratch, { recursive: true, force: true });
   }
   console.log(`${failures} failures; pictures are in ${screenshots}`);
   process.exit(failures === 0 ? 0 : 1);
 })().catch((error) => {
   console.error(error);
-  for (const child of children) child.kill('SIGKILL');
+  endAll();
   process.exit(1);
 });

@@ -152,10 +152,24 @@ export function extentOf(roster: Roster, frame: Frame): Extent {
       upper.max(p.clone().addScalar(size / 2));
       sizes += size;
     }
+    include(frame.joints?.points, lower, upper, lower.distanceTo(upper));
     const centre = lower.clone().add(upper).multiplyScalar(0.5);
     return { centre, radius: Math.max(0.5 * lower.distanceTo(upper), 0.1), size: sizes / shown.length };
   }
   return { centre: new Vector3(0, 0, 0.5), radius: 2, size: 0.2 };
+}
+
+/** Widens a box by the points of the joints, apart from such that are far away. */
+function include(joints: Float32Array | undefined, lower: Vector3, upper: Vector3, reach: number): void {
+  const middle = lower.clone().add(upper).multiplyScalar(0.5);
+  for (let i = 0; joints && i < joints.length; i += 9) {
+    for (const at of [i, i + 3]) {
+      const point = new Vector3().fromArray(joints, at);
+      if (point.distanceTo(middle) > 3 * reach) continue;
+      lower.min(point);
+      upper.max(point);
+    }
+  }
 }
 
 function median(values: number[]): number {

@@ -32,14 +32,16 @@ export class Stage {
   private fixedQuality = false;
   private environment: Texture | null = null;
   private dirty = true;
-  private drawn = 0;
+  /** how many were drawn */
+  pictures = 0;
   private staleShadows = false;
   private lastTimes: number[] = [];
   private slowest = 0;
 
-  constructor(parent: HTMLElement) {
+  /** @param purpose films take the time for smooth edges whatever draws them */
+  constructor(parent: HTMLElement, purpose: 'page' | 'film' = 'page') {
     const software = isSoftware();
-    this.renderer = new WebGLRenderer({ antialias: !software, powerPreference: 'high-performance' });
+    this.renderer = new WebGLRenderer({ antialias: purpose === 'film' || !software, powerPreference: 'high-performance' });
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.autoUpdate = false;
@@ -151,7 +153,7 @@ export class Stage {
       return false;
     }
     this.dirty = false;
-    this.draw(this.drawn % plans[this.quality].shadowEvery === 0);
+    this.draw(this.pictures % plans[this.quality].shadowEvery === 0);
     this.measure(now);
     return true;
   }
@@ -164,7 +166,7 @@ export class Stage {
     this.renderer.setClearColor(new Color(WorldPanel.background(this.theme)));
     const plan = plans[this.quality];
     this.staleShadows = !withShadows;
-    this.drawn++;
+    this.pictures++;
     this.panels.forEach((panel, i) => {
       panel.setShadows(this.shadows, plan.shadow);
       this.renderer.setViewport(i * width, 0, width, size.y);
@@ -173,7 +175,7 @@ export class Stage {
       this.renderer.shadowMap.needsUpdate = withShadows;
       this.renderer.render(panel.scene, this.camera);
     });
-    if (!this.environment && plan.fine && this.drawn > 2) this.makeEnvironment();
+    if (!this.environment && plan.fine && this.pictures > 2) this.makeEnvironment();
   }
 
   toBlob(type: string, quality: number): Promise<Blob> {
