@@ -8,6 +8,7 @@
 #include "resolution/impulse.h"
 #include "resolution/local_batch.h"
 #include "resolution/normal_rows.h"
+#include "resolution/queue.h"
 #include "resolution/resolution.h"
 
 namespace cairn::kernels {
@@ -28,6 +29,19 @@ struct Gathered {
     }
 
     void restore() { batch.bodies = bodies; }
+
+    /// @param use called with a contact and each of its bodies that contacts can change
+    template <class Use>
+    void forBodiesOf(std::uint32_t contact, const Use& use) const {
+        const ContactFrame& frame = batch.contacts[contact];
+        for (const std::uint32_t body : {frame.a, frame.b}) {
+            if (!batch.isFixed(body)) use(contact, body);
+        }
+    }
+    template <class Use>
+    void forBodies(const Use& use) const {
+        for (std::uint32_t contact = 0; contact < batch.contacts.size(); ++contact) forBodiesOf(contact, use);
+    }
 
     Pile pile;
     LocalBatch batch;
@@ -91,6 +105,29 @@ Pass updatePass(std::size_t copies) {
     return pass;
 }
 
+/// The queue alone: every contact closes, is taken as the fastest one, and opens.
+Pass queuePass() {
+    const auto gathered = std::make_shared<Gathered>(1);
+    const auto queue = std::make_shared<TournamentQueue>();
+    Pass pass;
+    pass.items = static_cast<std::int64_t>(gathered->batch.contacts.size());
+    pass.prepare = [gathered, queue] {
+        Random random(5);
+        for (double& delta : gathered->delta) delta = random.uniform(-1, -0.1);
+        gathered->delta.back() = 1;
+        queue->reset(gathered->rows.lists(), gathered->delta, 0);
+        gathered->forBodies([&](std::uint32_t contact, std::uint32_t body) { queue->insert(contact, body); });
+    };
+    pass.run = [gathered, queue] {
+        for (std::uint32_t contact = queue->next(); contact != no_contact; contact = queue->next()) {
+            gathered->delta[contact] = 1;
+            gathered->forBodiesOf(contact, [&](std::uint32_t, std::uint32_t body) { queue->bodyChanged(body); });
+        }
+        keep(*queue);
+    };
+    return pass;
+}
+
 /// A whole batch, from gathering to writing back.
 Pass batchPass(std::string_view resolution) {
     const auto pile = std::make_shared<Pile>(makePile(1));
@@ -119,6 +156,7 @@ std::vector<Kernel> resolutionKernels() {
         {"resolution/gather", "contact", [] { return gatherPass(1); }},
         {"resolution/resolve_contact", "contact", [] { return resolvePass(1); }},
         {"resolution/resolve_contact/from_memory", "contact", [] { return resolvePass(many); }},
+        {"resolution/queue", "contact", queuePass},
         {"resolution/update_closing_speed", "speed", [] { return updatePass(1); }},
         {"resolution/update_closing_speed/from_memory", "speed", [] { return updatePass(many); }}};
     const auto fields = settingFields();
