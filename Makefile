@@ -5,12 +5,14 @@
 #   make fuzz SECONDS=60   fuzz the readers, the narrow phase and the world, each target for so long
 #   make soak SIMULATED=3600 WALL=3600   pour a mixed pile for so many seconds: nothing may leak, slow down or creep
 #   make thesis    repeat every benchmark of the thesis: report/index.html
+#   make bench SUITE=peers   measure a suite (kernels, scenes, scaling, peers) and add it to bench/results
 #   make results   measure the scenes and rewrite the table in README.md
 #   make format | tidy | install PREFIX=DIR | clean
 
 SCENE ?= stacks5
 JOBS ?= 2
 PREFIX ?= /usr/local
+SUITE ?= peers
 SECONDS ?= 60
 SIMULATED ?= 3600
 WALL ?= 3600
@@ -19,7 +21,7 @@ SOURCES = $$(find include src apps bench tests examples -name '*.h' -o -name '*.
 # A compiler cache is used where there is one.
 export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
 
-.PHONY: run test sanitize fuzz soak thesis validate results format tidy install clean
+.PHONY: run test sanitize fuzz soak thesis bench validate results format tidy install clean
 
 run:
 	@tools/install_packages build
@@ -52,6 +54,12 @@ thesis:
 	@cmake --preset release --log-level=WARNING
 	@cmake --build --preset release --target cairn_cli
 	build/release/cairn bench thesis --out report
+
+bench:
+	@tools/install_packages build bench
+	@cmake --preset release --log-level=WARNING
+	@cmake --build --preset release --target cairn_cli
+	tools/record_results $(SUITE)
 
 validate:
 	@tools/install_packages build

@@ -34,16 +34,15 @@ struct Sample {
 Sample measure(const Kernel& kernel, double seconds) {
     const Pass pass = kernel.make();
     benchmark::ClearRegisteredBenchmarks();
-    benchmark::RegisterBenchmark(
-        kernel.name.c_str(),
-        [&pass](benchmark::State& state) {
-            for ([[maybe_unused]] auto round : state) {
-                pass.prepare();
-                const auto begin = std::chrono::steady_clock::now();
-                pass.run();
-                state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-            }
-        })
+    benchmark::RegisterBenchmark(kernel.name.c_str(),
+                                 [&pass](benchmark::State& state) {
+                                     for ([[maybe_unused]] auto round : state) {
+                                         pass.prepare();
+                                         const bench::Stopwatch stopwatch;
+                                         pass.run();
+                                         state.SetIterationTime(1e-3 * stopwatch.read().processor_ms);
+                                     }
+                                 })
         ->UseManualTime()
         ->Unit(benchmark::kNanosecond)
         ->MinTime(seconds);
