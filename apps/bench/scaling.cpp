@@ -190,8 +190,8 @@ Json jsonOf(const Entry& entry, const std::vector<Entry>& entries) {
 std::string tableOf(const std::vector<Entry>& entries) {
     constexpr const char* head = "{:<46} {:>7} {:>9} {:>9} {:>9} {:>7} {:>9} {:>7}\n";
     std::string text = "µs per body and time step\n\n";
-    text += fmt::format(fmt::runtime(head), "", "", "", "processor", "response", "", "contacts", "bytes");
-    text += fmt::format(fmt::runtime(head), "heap", "bodies", "us", "us", "us", "growth", "a body", "a body");
+    text += fmt::format(fmt::runtime(head), "", "", "wall", "processor", "response,", "", "contacts", "bytes");
+    text += fmt::format(fmt::runtime(head), "heap", "bodies", "us", "us", "wall us", "growth", "a body", "a body");
     for (const Entry& entry : entries) {
         text += fmt::format("{:<46} {:>7} {:>9.3f} {:>9.3f} {:>9.3f} {:>7.2f} {:>9.2f} {:>7.0f}\n", entry.name,
                             entry.bodies, entry.body_us, entry.processor_us, entry.response_us,
