@@ -174,6 +174,17 @@ async function live(browser) {
     await until(page, () => [...document.querySelectorAll('.toast.error')].some((t) => t.textContent.includes('bad.json')));
   });
 
+  await test('every shape can be added, and joints are shown', async () => {
+    await page.click('#tab-bodies');
+    for (const shape of ['box', 'sphere', 'capsule', 'cylinder']) await page.click(`#add-${shape}`);
+    await until(page, 'window.cairn.live.roster.bodies.size === 6');
+    const shapes = await page.evaluate(() => [...window.cairn.live.roster.bodies.values()].slice(2).map((body) => body.shape.type));
+    assert.deepEqual(shapes, ['box', 'sphere', 'capsule', 'cylinder']);
+    await page.selectOption('#scene', 'cradle_swing:5:2');
+    await until(page, 'window.cairn.live.state.scene.startsWith("cradle") && window.cairn.app.stage.panels[0].frame?.joints?.count === 5');
+    await shot(page, 'live-joints');
+  });
+
   await test('help, dark and a phone’s width', async () => {
     await page.keyboard.press('h');
     await page.waitForSelector('#help[open]');

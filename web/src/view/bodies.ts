@@ -205,7 +205,7 @@ function fineness(count: number): Fineness {
 
 /** Software rendering takes its time for triangles. */
 function coarseness(count: number): Fineness {
-  return count > 100 ? [12, 4] : [24, 8];
+  return count > 1000 ? [8, 4] : count > 100 ? [12, 4] : [24, 8];
 }
 
 function makeGeometry({ shape }: BodyInfo, [around, along]: Fineness): BufferGeometry {
