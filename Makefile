@@ -2,6 +2,7 @@
 #   make run       build the release and run the main scene; where there is a display, show it in the browser
 #   make test      build the release and run all tests
 #   make sanitize  run the tests under the address, undefined-behaviour and thread sanitizers
+#   make coverage  measure which lines of detection and response the tests run
 #   make fuzz SECONDS=60   fuzz the readers, the narrow phase and the world, each target for so long
 #   make soak SIMULATED=3600 WALL=3600   pour a mixed pile for so many seconds: nothing may leak, slow down or creep
 #   make thesis    repeat every benchmark of the thesis: report/index.html
@@ -21,7 +22,7 @@ SOURCES = $$(find include src apps bench tests examples -name '*.h' -o -name '*.
 # A compiler cache is used where there is one.
 export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
 
-.PHONY: run test sanitize fuzz soak thesis bench validate results format tidy install clean
+.PHONY: run test sanitize coverage fuzz soak thesis bench validate results format tidy install clean
 
 run:
 	@tools/install_packages build
@@ -40,6 +41,10 @@ sanitize:
 	@tools/install_packages build test develop
 	@tools/sanitize asan-ubsan
 	@tools/sanitize tsan
+
+coverage:
+	@tools/install_packages build test develop
+	@tools/coverage
 
 fuzz:
 	@tools/install_packages build develop

@@ -55,17 +55,8 @@ CorrectionCounts PropagatedCorrection::correct(const BatchView& batch, const Con
     }
     CorrectionCounts counts;
     counts.penetrating = static_cast<std::int64_t>(penetrating_.size());
-    Pass pass{threshold, settings.remaining_penetration * threshold};
-    const double spread_part = (1 + settings.remaining_penetration) / 2;
-    for (std::int64_t level = 0; level <= settings.spread_levels; ++level) {
-        const bool any = std::any_of(penetrating_.begin(), penetrating_.end(),
-                                     [&](std::uint32_t index) { return contacts[index].distance < pass.limit; });
-        if (!any) break;
-        graph_.reset(contacts_of, contacts, bodies, pass.remaining);
-        counts.displaced += run(pass, contacts_of, contacts, bodies);
-        pass.limit = std::ldexp(first_spread * threshold, static_cast<int>(level));
-        pass.remaining = spread_part * pass.limit;
-    }
+    if (settings.spread_levels > 0) counts.displaced = loosening_.run(batch, contacts, bodies, settings);
+    if (counts.displaced == 0) counts.displaced = push(contacts_of, contacts, bodies, settings);
     for (const std::uint32_t index : penetrating_) {
         if (contacts[index].distance < threshold) {
             ++counts.uncorrected;
@@ -74,6 +65,24 @@ CorrectionCounts PropagatedCorrection::correct(const BatchView& batch, const Con
         }
     }
     return counts;
+}
+
+std::int64_t PropagatedCorrection::push(const ContactsOfBodies& contacts_of, std::span<Contact> contacts,
+                                        const BodyState& bodies, const CorrectionSettings& settings) {
+    const double threshold = -settings.penetration_threshold;
+    std::int64_t displaced = 0;
+    Pass pass{threshold, settings.remaining_penetration * threshold};
+    const double spread_part = (1 + settings.remaining_penetration) / 2;
+    for (std::int64_t level = 0; level <= settings.spread_levels; ++level) {
+        const bool any = std::any_of(penetrating_.begin(), penetrating_.end(),
+                                     [&](std::uint32_t index) { return contacts[index].distance < pass.limit; });
+        if (!any) break;
+        graph_.reset(contacts_of, contacts, bodies, pass.remaining);
+        displaced += run(pass, contacts_of, contacts, bodies);
+        pass.limit = std::ldexp(first_spread * threshold, static_cast<int>(level));
+        pass.remaining = spread_part * pass.limit;
+    }
+    return displaced;
 }
 
 /// Corrects the contacts deeper than the pass's limit. @return how many bodies were moved

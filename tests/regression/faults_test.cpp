@@ -125,6 +125,76 @@ TEST(Faults, ThousandsInsideEachOtherSeparateWithoutAnExplosion) {
     }
 }
 
+TEST(Faults, HundredsAtOnePlaceSeparateWithoutAnExplosion) {
+    for (const bool falling : {false, true}) {
+        Ground g(Settings::preset(Preset::performance), falling ? Vec3(0, 0, -10) : Vec3::Zero());
+        std::uint64_t random = 3;
+        for (int i = 0; i < 200; ++i) {
+            const Shape shapes[] = {Sphere{0.1}, Box{Vec3(0.2, 0.1, 0.15)}, Capsule{0.05, 0.1}};
+            const Quat turn(2, uniform(random), uniform(random), uniform(random));
+            g.world.addBody({.shape = shapes[i % 3], .material = g.oak, .pose = {Vec3(0, 0, 1), turn}});
+        }
+        double speed = 0;
+        for (int i = 0; i < 150; ++i) {
+            g.world.step();
+            speed = std::max(speed, fastest(g.world));
+        }
+        EXPECT_TRUE(g.world.faults().empty());
+        // A fall from the top of the heap, which grows to about 2 m, takes √(2·10·2) m/s.
+        EXPECT_LT(speed, falling ? 7 : 1e-9);
+        EXPECT_LT(g.world.statistics().largest_overlap, 0.01);
+    }
+}
+
+TEST(Faults, NumbersThatAreNotFiniteAreRefusedByEveryCall) {
+    Ground g;
+    const BodyId a = g.box(1, Vec3(0, 0, 0.5));
+    const BodyId b = g.box(1, Vec3(3, 0, 0.5));
+    const SpringId spring = g.world.addSpring({.a = a, .b = b, .stiffness = 1, .rest_length = 3});
+    const JointId hinge = g.world.addJoint({.kind = JointKind::hinge, .a = b, .anchor = Vec3(3, 0, 0.5)});
+    const auto before = g.world.save();
+    const double infinity = std::numeric_limits<double>::infinity();
+    World& w = g.world;
+    for (const double bad : {std::nan(""), infinity, -infinity}) {
+        const Vec3 v(0, bad, 0);
+        const Vec3 good(1, 0, 0);
+        EXPECT_THROW(w.applyForce(a, v), InputError);
+        EXPECT_THROW(w.applyForceAt(a, v, good), InputError);
+        EXPECT_THROW(w.applyForceAt(a, good, v), InputError);
+        EXPECT_THROW(w.applyTorque(a, v), InputError);
+        EXPECT_THROW(w.applyImpulse(a, v), InputError);
+        EXPECT_THROW(w.applyImpulseAt(a, v, good), InputError);
+        EXPECT_THROW(w.applyImpulseAt(a, good, v), InputError);
+        EXPECT_THROW(w.applyAngularImpulse(a, v), InputError);
+        EXPECT_THROW(w.setConstantForce(a, v), InputError);
+        EXPECT_THROW(w.setConstantTorque(a, v), InputError);
+        EXPECT_THROW(w.setLinearVelocity(a, v), InputError);
+        EXPECT_THROW(w.setAngularVelocity(a, v), InputError);
+        EXPECT_THROW(w.setPose(a, {v, Quat::Identity()}), InputError);
+        EXPECT_THROW(w.setPose(a, {good, Quat(1, bad, 0, 0)}), InputError);
+        EXPECT_THROW(w.setGravity(v), InputError);
+        EXPECT_THROW(w.setGlobalAcceleration(v), InputError);
+        EXPECT_THROW(w.setDefaultPairProperties({.static_friction = bad}), InputError);
+        EXPECT_THROW(w.addMaterial({"bad", bad}), InputError);
+        EXPECT_THROW(g.add(Sphere{bad}, good), InputError);
+        EXPECT_THROW(g.add(Sphere{1}, v), InputError);
+        EXPECT_THROW(g.add(Sphere{1}, good, bad), InputError);
+        EXPECT_THROW(w.addBody({.material = g.oak, .linear_velocity = v}), InputError);
+        EXPECT_THROW(w.addSpring({.a = a, .stiffness = bad}), InputError);
+        EXPECT_THROW(w.setSpringAnchor(spring, v), InputError);
+        EXPECT_THROW(w.addJoint({.a = a, .anchor = v}), InputError);
+        EXPECT_THROW(w.setJointMotor(hinge, {bad, 1}), InputError);
+        EXPECT_THROW(w.setJointLimits(hinge, bad, 1), InputError);
+        Settings settings = w.settings();
+        settings.steps_per_second = bad;
+        EXPECT_THROW(w.setSettings(settings), InputError);
+    }
+    World same = World::restore(before);
+    w.step();
+    same.step();
+    EXPECT_EQ(w.stateHash(), same.stateHash()) << "a refused call leaves the world as it was";
+}
+
 TEST(Extremes, AMillionMetresFromTheOriginABoxRestsAndSleeps) {
     Ground g;
     const BodyId box = g.box(1, Vec3(1e6, -1e6, 0.5));

@@ -121,6 +121,18 @@ TEST(WorldJoints, BreakAtTheirForceAndSayIt) {
     }
 }
 
+TEST(WorldJoints, AMotorThatBreaksItsJointMayHaveAddedEnergy) {
+    Site s;
+    s.world.setGravity(Vec3::Zero());
+    s.world.setChecks(Checks::on);
+    const BodyId box = s.box({0, 0, 1});
+    const JointId joint = s.world.addJoint(
+        {.kind = JointKind::hinge, .a = box, .anchor = {0.5, 0, 1}, .motor = JointMotor{10, 1e4}, .break_force = 1});
+    s.world.step();
+    EXPECT_FALSE(s.world.contains(joint));
+    EXPECT_GT(s.world.kineticEnergy(), 1);
+}
+
 TEST(WorldJoints, BreakAtTheirTorque) {
     Site s;
     const BodyId box = s.box({1, 0, 1});
