@@ -17,6 +17,10 @@ const plans: Record<Quality, QualityPlan> = {
   lowest: { pixels: 0.5, fine: false, soft: false, shadow: 512, shadowEvery: 6 },
 };
 const order: Quality[] = ['high', 'medium', 'low', 'lowest'];
+/** without a new picture for so long nothing moves any more [ms] */
+const restTime = 400;
+/** a picture that takes longer is too slow [ms] */
+const slowPicture = 55;
 
 export class Stage {
   readonly camera = new PerspectiveCamera(42, 1, 0.02, 500);
@@ -24,7 +28,7 @@ export class Stage {
   readonly canvas: HTMLCanvasElement;
   panels: WorldPanel[] = [new WorldPanel()];
   shadows = true;
-  /** pictures per second, over the last second in which something moved */
+  /** drawn in the last second */
   picturesPerSecond = 0;
   private readonly renderer: WebGLRenderer;
   private theme: Theme = 'light';
@@ -35,8 +39,10 @@ export class Stage {
   /** how many were drawn */
   pictures = 0;
   private staleShadows = false;
-  private lastTimes: number[] = [];
-  private slowest = 0;
+  private lastTick = 0;
+  private drewLast = false;
+  private drawnAt: number[] = [];
+  private readonly judged = { ms: 0, pictures: 0, slowSeconds: 0 };
 
   /** @param purpose films take the time for smooth edges whatever draws them */
   constructor(parent: HTMLElement, purpose: 'page' | 'film' = 'page') {
@@ -146,15 +152,19 @@ export class Stage {
 
   /** Draws if something changed. @param now [ms] @return true if it drew */
   render(now: number): boolean {
+    if (this.drewLast) this.judge(now - this.lastTick);
+    this.lastTick = now;
+    this.drewLast = this.dirty;
+    if (this.dirty) this.drawnAt.push(now);
+    while (this.drawnAt[0] < now - 1000) this.drawnAt.shift();
+    this.picturesPerSecond = this.drawnAt.length;
     if (!this.dirty) {
-      // The last picture of a movement gets its own shadows.
-      if (this.staleShadows) this.draw(true);
-      this.lastTimes.length = 0;
+      // The last picture of a movement gets its own shadows; between two it would only cost time.
+      if (this.staleShadows && !(now - this.drawnAt[this.drawnAt.length - 1] < restTime)) this.draw(true);
       return false;
     }
     this.dirty = false;
     this.draw(this.pictures % plans[this.quality].shadowEvery === 0);
-    this.measure(now);
     return true;
   }
 
@@ -203,18 +213,17 @@ export class Stage {
     this.touch();
   }
 
-  /** Chooses less while pictures take long. Never more by itself: going up and down again would flicker. */
-  private measure(now: number): void {
-    this.lastTimes.push(now);
-    if (this.lastTimes.length < 2) return;
-    const span = now - this.lastTimes[0];
-    this.picturesPerSecond = (1000 * (this.lastTimes.length - 1)) / span;
-    if (span < 1000) return;
-    this.slowest = this.picturesPerSecond < 18 ? this.slowest + 1 : 0;
-    this.lastTimes = [now];
+  /** Chooses less while pictures take long. Never more by itself: going up and down again would flicker. @param ms of one picture */
+  private judge(ms: number): void {
+    const judged = this.judged;
+    judged.ms += ms;
+    judged.pictures++;
+    if (judged.ms < 1000) return;
+    judged.slowSeconds = judged.ms / judged.pictures > slowPicture ? judged.slowSeconds + 1 : 0;
+    judged.ms = judged.pictures = 0;
     const next = order[order.indexOf(this.quality) + 1];
-    if (this.slowest >= 2 && next && !this.fixedQuality) {
-      this.slowest = 0;
+    if (judged.slowSeconds >= 2 && next && !this.fixedQuality) {
+      judged.slowSeconds = 0;
       this.setQuality(next);
     }
   }
