@@ -213,6 +213,9 @@ void addPeersSuite(CLI::App& bench, int& exit_code) {
     command->add_option("--plot", arguments->plot, "Draw times and overlaps as an SVG")->type_name("FILE");
     addSuiteOptions(*command, arguments->suite);
     command->callback([arguments, &exit_code] {
+        if (!arguments->plot.empty() && arguments->plot == arguments->suite.save) {
+            throw InputError(fmt::format("--plot and --save are both given '{}'; give two names", arguments->plot));
+        }
         bench::PeersOptions options = peersOptions(*arguments);
         exit_code = runSuite(arguments->suite, [&](const bench::Progress& progress) {
             options.progress = progress;

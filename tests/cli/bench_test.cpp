@@ -36,6 +36,7 @@ TEST_F(CommandLine, benchRefusesWhatItCannotMeasure) {
     expectWrongUse({"bench", "scaling", "--sizes", "0"}, {"0 bodies"});
     expectWrongUse({"bench", "peers", "--engines", "cairn,havok"}, {"havok", "bullet"});
     expectWrongUse({"bench", "peers", "--engines", "cairn", "--scenes", "cradle_swing:5:2"}, {"joints"});
+    expectWrongUse({"bench", "peers", "--save", "out", "--plot", "out"}, {"'out'", "two names"});
 }
 
 }  // namespace
