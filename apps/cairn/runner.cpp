@@ -42,7 +42,7 @@ class Runner {
             const auto hashes = static_cast<std::size_t>(hashed_ ? run_.stepsPerSimulationStep() : 0);
             recording_.emplace(options.record, run_.scene(), run_.world().settings(), hashes);
         }
-        if (!options.stats.empty()) stats_.emplace(options.stats);
+        if (!options.stats.empty()) stats_.emplace(options.stats, run_.world().settings());
     }
 
     /// @return why the run ended early, if it did. What failed is an output or a body; wrong events throw InputError

@@ -29,17 +29,21 @@ constexpr std::array<Counter, 12> counters = {{
     {"woken", &Statistics::woken},
 }};
 
-std::string header() {
+std::string header(const Settings& settings) {
     std::string text = "step,time,ms";
     for (const std::string_view stage : stage_names) text += fmt::format(",{}_ms", stage);
     for (const Counter& counter : counters) text += fmt::format(",{}", counter.name);
-    return text + ",largest_overlap_m,mean_overlap_m,kinetic_energy_J,potential_energy_J\n";
+    text += ",largest_overlap_m,mean_overlap_m,kinetic_energy_J,potential_energy_J";
+    if (settings.diagnostics.diagnostics) {
+        for (const DiagnosticsField& field : diagnosticsFields()) text += fmt::format(",{}", field.name);
+    }
+    return text + "\n";
 }
 
 }  // namespace
 
-StatsCsv::StatsCsv(const std::filesystem::path& file) : file_(file) {
-    file_.write(header());
+StatsCsv::StatsCsv(const std::filesystem::path& file, const Settings& settings) : file_(file) {
+    file_.write(header(settings));
 }
 
 void StatsCsv::add(const World& world, double ms, const Statistics& step) {
@@ -47,8 +51,13 @@ void StatsCsv::add(const World& world, double ms, const Statistics& step) {
     const auto out = std::back_inserter(text);
     for (const double stage : step.stage_ms) fmt::format_to(out, ",{}", stage);
     for (const Counter& counter : counters) fmt::format_to(out, ",{}", step.*counter.member);
-    fmt::format_to(out, ",{},{},{},{}\n", step.largest_overlap, step.mean_overlap, world.kineticEnergy(),
+    fmt::format_to(out, ",{},{},{},{}", step.largest_overlap, step.mean_overlap, world.kineticEnergy(),
                    world.potentialEnergy());
+    if (world.settings().diagnostics.diagnostics) {
+        Diagnostics diagnostics = step.diagnostics;
+        for (const DiagnosticsField& field : diagnosticsFields()) fmt::format_to(out, ",{}", field.of(diagnostics));
+    }
+    text += '\n';
     file_.write(text);
 }
 

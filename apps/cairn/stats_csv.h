@@ -9,8 +9,8 @@ namespace cairn::cli {
 /// One row per simulation step, written as the run goes on. @source docs/cli.md names the columns
 class StatsCsv {
   public:
-    /// @throws IoError
-    explicit StatsCsv(const std::filesystem::path& file);
+    /// @param settings whose diagnostics add columns @throws IoError
+    StatsCsv(const std::filesystem::path& file, const Settings& settings);
     /// @param ms wall time of the simulation step [ms] @throws IoError
     void add(const World& world, double ms, const Statistics& step);
 

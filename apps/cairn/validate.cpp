@@ -16,6 +16,7 @@ namespace {
 struct ValidateArguments {
     std::vector<std::string> only;
     std::string out = "validation";
+    std::vector<std::string> tosses;
     bool quick = false;
     bool list = false;
 };
@@ -35,6 +36,7 @@ int runValidate(const ValidateArguments& arguments) {
     validation::ValidateOptions options;
     options.out = arguments.out;
     options.only = arguments.only;
+    options.tosses.assign(arguments.tosses.begin(), arguments.tosses.end());
     options.extent = arguments.quick ? validation::Extent::quick : validation::Extent::full;
     options.finished = [](const std::string& line) { printOut(line + "\n"); };
     options.interrupted = interrupted;
@@ -57,6 +59,9 @@ void addValidate(CLI::App& app, int& exit_code) {
     auto arguments = std::make_shared<ValidateArguments>();
     command->add_option("--only", arguments->only, "Cases or groups by name; default: all")->delimiter(',');
     command->add_option("--out", arguments->out, "Folder of the page; default: validation")->type_name("DIR");
+    command->add_option("--toss", arguments->tosses, "Recorded tosses of a cube for the case 'cube-toss'")
+        ->type_name("FILE")
+        ->delimiter(',');
     command->add_flag("--quick", arguments->quick, "Coarser and shorter: for a first look");
     command->add_flag("--list", arguments->list, "Name the cases and end");
     command->callback([arguments, &exit_code] { exit_code = runValidate(*arguments); });

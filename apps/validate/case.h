@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "result.h"
+#include "toss.h"
 
 namespace cairn::validation {
 
@@ -23,6 +24,7 @@ struct Interrupted {};
 /// What a case may use while it runs.
 struct Plan {
     Extent extent = Extent::full;
+    std::vector<Toss> tosses{};           ///< recorded tosses of a cube to compare with
     std::function<void()> alive = [] {};  ///< to be called often in long loops; @throws Interrupted
 
     bool isQuick() const { return extent == Extent::quick; }

@@ -53,9 +53,9 @@ Json head(Extent extent) {
             {"cases", Json::array()}};
 }
 
-void measure(const Case& c, const ValidateOptions& options, ValidateOutcome& outcome) {
+void measure(const Case& c, const ValidateOptions& options, const std::vector<Toss>& tosses, ValidateOutcome& outcome) {
     options.began(std::string(c.name));
-    Plan plan{options.extent};
+    Plan plan{options.extent, tosses};
     plan.alive = [&] {
         if (options.interrupted()) throw Interrupted{};
     };
@@ -97,11 +97,14 @@ void write(const ValidateOptions& options, ValidateOutcome& outcome) {
 
 ValidateOutcome runValidation(const ValidateOptions& options) {
     refuseUnknownNames(options.only);
+    // Files that cannot be read are told before hours of other cases.
+    std::vector<Toss> tosses;
+    for (const auto& file : options.tosses) tosses.push_back(readToss(file));
     ValidateOutcome outcome;
     outcome.report = head(options.extent);
     for (const Case& c : allCases()) {
         if (!isSelected(c, options.only)) continue;
-        measure(c, options, outcome);
+        measure(c, options, tosses, outcome);
         // After every case, so that an interrupted run leaves what it found.
         if (!options.out.empty()) write(options, outcome);
     }

@@ -16,6 +16,7 @@ struct ValidateOptions {
     std::filesystem::path out;      ///< folder; made if it does not exist; empty = nothing is written
     std::vector<std::string> only;  ///< names of cases or groups; empty = all
     Extent extent = Extent::full;
+    std::vector<std::filesystem::path> tosses{};  ///< recorded tosses for the case "cube-toss"
     std::function<void(const std::string&)> began = [](const std::string&) {};     ///< a case by its name
     std::function<void(const std::string&)> finished = [](const std::string&) {};  ///< a line about it
     std::function<bool()> interrupted = [] { return false; };

@@ -26,6 +26,16 @@ enum class ResolutionKind { impulse_queue, sweep, accelerated_sweeps, none };
 /// Which closing contact is resolved next. @source thesis §3.6 and §5.4
 enum class ResolutionOrder { highest_closing_speed, arbitrary };
 
+/// What the coefficient of restitution says: the ratio of the speeds (the thesis), or of the works of compression and
+/// restitution, which never gains energy whatever friction does. @source Newton; Stronge 1990
+enum class RestitutionLaw { newton, energetic };
+/// Which speed restitution takes for that of the impact: the closing speed at the end of the time step with the forces
+/// of the step (the thesis), or the speed with which the bodies touched each other within the step.
+enum class RestitutionSpeed { closing, touching };
+/// How impacts pass through chains of touching bodies: as the resolution does by itself, one contact after the other
+/// (the thesis) or all at once.
+enum class Impacts { of_resolution, sequential, simultaneous };
+
 /// Broad and narrow phase.
 struct DetectionSettings {
     BroadPhaseKind broad_phase = BroadPhaseKind::hash_grids;  ///< all_pairs is its slow oracle
@@ -49,6 +59,9 @@ struct ResolutionSettings {
     ResolutionOrder order = ResolutionOrder::highest_closing_speed;  ///< of ResolutionKind::impulse_queue
     double resolution_threshold = 83.4e-6;   ///< closing speed above which a contact is resolved [m/s] (3.4.3)
     double restitution_threshold = 45.8e-3;  ///< closing speed below which restitution is zero [m/s] (3.8.1)
+    RestitutionLaw restitution_law = RestitutionLaw::newton;         ///< what the coefficient of restitution says
+    RestitutionSpeed restitution_speed = RestitutionSpeed::closing;  ///< the speed that it is about
+    Impacts impacts = Impacts::of_resolution;                        ///< in chains of touching bodies
     double global_iterations = 2;    ///< limit of resolutions as a multiple of the batch's contacts; 0 = unlimited
     bool shock_propagation = true;   ///< Algorithm 10, when the limit was reached with contacts still closing
     double shock_iterations = 6;     ///< the same limit for each stage of the shock propagation; 0 = unlimited
@@ -83,6 +96,11 @@ struct ParallelSettings {
     std::int64_t large_batch = 32;  ///< batches with at least so many contacts are handed out one by one (§4)
 };
 
+/// What a step measures besides.
+struct DiagnosticsSettings {
+    bool diagnostics = false;  ///< fills Statistics::diagnostics in every step
+};
+
 /// What a world refuses to grow beyond.
 struct LimitSettings {
     std::int64_t body_limit = 10'000'000;  ///< most bodies at one time, 1 to 1e9; a body needs about 4 kB
@@ -99,6 +117,7 @@ struct Settings {
     IntegrationSettings integration;
     ParallelSettings parallel;
     LimitSettings limits;
+    DiagnosticsSettings diagnostics;
 
     /// The length of a time step [s].
     double timeStep() const { return 1 / steps_per_second; }

@@ -48,12 +48,13 @@ struct SpringDescription {
 
 /// A contact as it was after the last step.
 struct ContactInfo {
-    BodyId a, b;          ///< a has the smaller index
-    Vec3 point;           ///< [m, W]
-    Vec3 normal;          ///< unit, from B to A, W
-    double distance;      ///< along the normal [m]; negative = overlap
-    Vec3 impulse;         ///< that A received in the step [N·s, W]; B received the opposite
-    std::uint32_t batch;  ///< index of its batch
+    BodyId a, b;           ///< a has the smaller index
+    Vec3 point;            ///< [m, W]
+    Vec3 normal;           ///< unit, from B to A, W
+    double distance;       ///< along the normal [m]; negative = overlap
+    Vec3 impulse;          ///< that A received in the step [N·s, W]; B received the opposite
+    Vec3 angular_impulse;  ///< of rolling and spinning friction, likewise [N·m·s, W]
+    std::uint32_t batch;   ///< index of its batch
 };
 
 /// A group of bodies connected by contacts, fixed bodies being barriers.

@@ -17,8 +17,17 @@ struct Contact {
     double restitution = 0;
     double static_friction = 0;
     double kinetic_friction = 0;
-    Vec3 last_impulse = Vec3::Zero();  ///< that A received here in the last step [N·s, W]; zero for a new contact
-    Vec3 impulse = Vec3::Zero();       ///< sum of what A received in this step [N·s, W]; B received the opposite
+    double rolling_friction = 0;          ///< [m]
+    double spinning_friction = 0;         ///< [m]
+    Vec3 last_impulse = Vec3::Zero();     ///< that A received here in the last step [N·s, W]; zero for a new contact
+    Vec3 impulse = Vec3::Zero();          ///< sum of what A received in this step [N·s, W]; B received the opposite
+    Vec3 angular_impulse = Vec3::Zero();  ///< of rolling and spinning friction, likewise [N·m·s, W]
+
+    // With RestitutionSpeed::touching only, where a is the acceleration by which the forces close the contact.
+    double gap = 0;     ///< distance when it was detected, before the correction [m]
+    double forced = 0;  ///< what the forces changed of the normal velocity in this step [m/s]; < 0 = they close it
+    double fall = 0;    ///< what is to be added to the squared closing speed to have that at the touching [m²/s²]
+    double climb = 0;   ///< what the way from touching to the present distance takes of it again [m²/s²]
 };
 
 }  // namespace cairn

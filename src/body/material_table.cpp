@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <utility>
 
 namespace cairn {
 
@@ -15,6 +16,11 @@ void validatePair(const PairProperties& p) {
     }
     if (!(p.kinetic_friction >= 0 && std::isfinite(p.kinetic_friction))) {
         throw InputError(fmt::format("kinetic_friction is {}; it must be finite and at least 0", p.kinetic_friction));
+    }
+    for (const auto& [name, value] :
+         {std::pair{"rolling_friction", p.rolling_friction}, std::pair{"spinning_friction", p.spinning_friction}}) {
+        if (value >= 0 && std::isfinite(value)) continue;
+        throw InputError(fmt::format("{} is {} m; it must be finite and at least 0", name, value));
     }
     if (p.kinetic_friction > p.static_friction) {
         throw InputError(

@@ -148,6 +148,29 @@ void noteForced(const BodyStorage& bodies, const Executor& executor, VelocitiesB
     });
 }
 
+void noteTouching(const BodyStorage& bodies, double threshold, double time_step, VelocitiesBefore& before,
+                  std::span<Contact> contacts) {
+    for (Contact& c : contacts) {
+        const auto normalVelocity = [&](const std::vector<Vec3>& v, const std::vector<Vec3>& w) {
+            const Vec3 of_a = v[c.a] + w[c.a].cross(c.point - bodies.position[c.a]);
+            const Vec3 of_b = v[c.b] + w[c.b].cross(c.point - bodies.position[c.b]);
+            return c.normal.dot(of_a - of_b);
+        };
+        const double closing = -normalVelocity(before.v, before.w);
+        c.forced = normalVelocity(bodies.v, bodies.w) + closing;
+        const double acceleration = -c.forced / time_step;
+        // The bodies moved by the velocities before the forces: at the beginning of the step they were farther apart.
+        c.fall = 2 * acceleration * (c.gap + closing * time_step);
+        c.climb = 2 * acceleration * c.distance;
+        const double touched = closing * closing + c.fall;
+        const bool bounces =
+            closing > 0 && touched >= threshold * threshold && c.restitution * c.restitution * touched > c.climb;
+        if (!bounces) continue;
+        before.forced[c.a] = 0;
+        before.forced[c.b] = 0;
+    }
+}
+
 void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, std::span<const std::uint8_t> jointed,
                           double time_step, const Executor& executor) {
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {

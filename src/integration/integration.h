@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "body/body_storage.h"
+#include "body/contact.h"
 #include "cairn/settings.h"
 #include "parallel/executor.h"
 
@@ -39,6 +40,13 @@ struct VelocitiesBefore {
 void noteVelocities(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before);
 /// Notes what the forces changed, between advanceVelocities() and the resolution. @param before in and out
 void noteForced(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before);
+
+/// Fills in what RestitutionSpeed::touching needs of the contacts, between advanceVelocities() and the resolution.
+/// While a contact is closed by the acceleration a with the closing speed u at the distance z, u² + 2az stays the same.
+/// The motion of bodies that will bounce counts as not smooth, however slow they are.
+/// @param threshold speed of touching below which nothing bounces [m/s] @param before in and out
+void noteTouching(const BodyStorage& bodies, double threshold, double time_step, VelocitiesBefore& before,
+                  std::span<Contact> contacts);
 
 /// Completes the step of all awake dynamic bodies that moved smoothly: advancePositions() moved them by the velocity at
 /// the beginning of the step, this adds what is missing to the mean of beginning and end. Under constant forces that is

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "record/layout.h"
@@ -12,6 +13,20 @@ namespace cairn::hdf5 {
 /// The hashes of a recording that has them: apart, since most have none.
 inline SeriesShape stepHashes(hsize_t per_frame) {
     return {layout::step_hashes, "1", Element::integer, Storage::plain, {per_frame}};
+}
+
+/// One per diagnosticsFields(), of a recording with diagnostics. @tparam Series SeriesWriter or SeriesReader
+/// @param path of the file, for messages; must outlive them @throws IoError
+template <typename Series>
+std::vector<Series> diagnosticsSeries(const File& file, const std::filesystem::path& path) {
+    std::vector<Series> series;
+    const std::vector<std::string>& names = layout::diagnosticsNames();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        // Units are literals.
+        const char* unit = diagnosticsFields()[i].unit.data();
+        series.emplace_back(file, path, SeriesShape{names[i].c_str(), unit, Element::real, Storage::plain, {}});
+    }
+    return series;
 }
 
 /// @tparam Series SeriesWriter or SeriesReader

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "cairn/statistics.h"
 
@@ -36,6 +38,20 @@ inline constexpr const char* statistics = "statistics";
 inline constexpr const char* stage_ms = "statistics/stage_ms";
 inline constexpr const char* stages_attribute =
     "stages";  ///< of the group statistics: names of the columns of stage_ms
+
+inline constexpr const char* diagnostics = "diagnostics";  ///< a group; only with the setting of that name
+
+/// Paths of its data sets, in the order of diagnosticsFields().
+inline const std::vector<std::string>& diagnosticsNames() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const DiagnosticsField& field : diagnosticsFields()) {
+            all.push_back(std::string(diagnostics) + '/' + std::string(field.name));
+        }
+        return all;
+    }();
+    return names;
+}
 
 /// A member of Statistics and its data set.
 template <typename Value>

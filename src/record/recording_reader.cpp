@@ -73,6 +73,9 @@ struct RecordingReader::Impl {
             hdf5::Group(H5Gopen2(file.get(), layout::settings, H5P_DEFAULT), path, "settings"), path);
         series.emplace(file, path, info.bodies);
         openHashes();
+        if (H5Lexists(file.get(), layout::diagnostics, H5P_DEFAULT) > 0) {
+            diagnostics = hdf5::diagnosticsSeries<hdf5::SeriesReader>(file, path);
+        }
         info.frames = countFrames();
         if (!state.closed) requireAllInFile();
         quaternions.resize(info.bodies);
@@ -81,6 +84,7 @@ struct RecordingReader::Impl {
     ~Impl() {
         const hdf5::QuietErrors quiet;
         series.reset();
+        diagnostics.clear();
         hashes.reset();
         file.close();
     }
@@ -102,6 +106,7 @@ struct RecordingReader::Impl {
         const auto end = std::find_if(times.begin(), times.end(), [](double t) { return std::isnan(t); });
         auto frames = static_cast<hsize_t>(end - times.begin());
         series->forEachButTime([&](const hdf5::SeriesReader& s) { frames = std::min(frames, s.frames()); });
+        for (const hdf5::SeriesReader& s : diagnostics) frames = std::min(frames, s.frames());
         if (hashes) frames = std::min(frames, hashes->frames());
         return frames;
     }
@@ -114,6 +119,7 @@ struct RecordingReader::Impl {
         };
         visit(series->time);
         series->forEachButTime(visit);
+        for (const hdf5::SeriesReader& s : diagnostics) visit(s);
         requireLength(path, end);
     }
 
@@ -121,6 +127,7 @@ struct RecordingReader::Impl {
     hdf5::File file;
     RecordingInfo info;
     std::optional<hdf5::FrameSeries<hdf5::SeriesReader>> series;
+    std::vector<hdf5::SeriesReader> diagnostics;  ///< empty if it was recorded without
     std::optional<hdf5::SeriesReader> hashes;
     mutable std::vector<std::array<double, 4>> quaternions;  ///< w, x, y, z
 };
@@ -166,6 +173,9 @@ Frame RecordingReader::frame(std::size_t index) const {
     }
     for (std::size_t i = 0; i < layout::overlaps.size(); ++i) {
         series.overlaps[i].read(index, &(frame.statistics.*layout::overlaps[i].member));
+    }
+    for (std::size_t i = 0; i < impl.diagnostics.size(); ++i) {
+        impl.diagnostics[i].read(index, &diagnosticsFields()[i].of(frame.statistics.diagnostics));
     }
     if (impl.hashes) {
         frame.step_hashes.resize(impl.info.hashes_per_frame);

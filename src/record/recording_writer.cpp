@@ -74,6 +74,10 @@ struct RecordingWriter::Impl {
         requireWritten(file ? "cannot be written" : "cannot be created");
         writeMetadata(file, path, scene, settings);
         series.emplace(file, path, bodies);
+        if (settings.diagnostics.diagnostics) {
+            hdf5::createGroup(file, path, layout::diagnostics);
+            diagnostics = hdf5::diagnosticsSeries<hdf5::SeriesWriter>(file, path);
+        }
         if (!hash_row.empty()) hashes.emplace(file, path, hdf5::stepHashes(hash_row.size()));
         checked(H5Fstart_swmr_write(file.get()), path, "cannot be made readable while it is written");
         requireWritten("cannot be written");
@@ -83,6 +87,7 @@ struct RecordingWriter::Impl {
     ~Impl() {
         const hdf5::QuietErrors quiet;
         series.reset();
+        diagnostics.clear();
         hashes.reset();
         file.close();
     }
@@ -105,6 +110,10 @@ struct RecordingWriter::Impl {
         }
         for (std::size_t i = 0; i < layout::overlaps.size(); ++i) {
             series->overlaps[i].append(frames, &(frame.statistics.*layout::overlaps[i].member));
+        }
+        Diagnostics measured = frame.statistics.diagnostics;
+        for (std::size_t i = 0; i < diagnostics.size(); ++i) {
+            diagnostics[i].append(frames, &diagnosticsFields()[i].of(measured));
         }
         if (hashes) {
             // The initial state has no time step behind it.
@@ -130,6 +139,7 @@ struct RecordingWriter::Impl {
     hdf5::FileDriver driver;
     hdf5::File file;
     std::optional<hdf5::FrameSeries<hdf5::SeriesWriter>> series;
+    std::vector<hdf5::SeriesWriter> diagnostics;  ///< empty without the setting
     std::optional<hdf5::SeriesWriter> hashes;
     std::vector<std::array<double, 4>> quaternions;  ///< w, x, y, z
     hsize_t frames = 0;
@@ -171,6 +181,7 @@ void RecordingWriter::close() {
     Impl& impl = *impl_;
     const hdf5::QuietErrors quiet;
     impl.series.reset();
+    impl.diagnostics.clear();
     impl.hashes.reset();
     checked(impl.file.close(), impl.path, "cannot be closed");
     if (!impl.failed) impl.requireWritten("cannot be written");

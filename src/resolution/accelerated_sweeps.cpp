@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "resolution/algorithms.h"
+#include "resolution/contact_law.h"
 #include "resolution/impulse.h"
 #include "resolution/local_batch.h"
 
@@ -20,6 +21,13 @@ struct SweptContact {
     double target = 0;              ///< normal velocity that the contact must at least have [m/s]
     Symmetric3 k;                   ///< K [1/kg]
     double largest_tangential = 0;  ///< eigenvalue of K's tangential part [1/kg]
+};
+
+/// Likewise the angular impulse of a contact that resists rolling.
+struct SweptRolling {
+    Vec3 impulse = Vec3::Zero();    ///< accumulated, on A [N·m·s]
+    Vec3 direction = Vec3::Zero();  ///< last direction of the conjugate gradients [N·m·s]
+    Vec3 before = Vec3::Zero();     ///< at the beginning of the sweep [N·m·s]
 };
 
 /// Rounds of slidingSteps() in every visit of a sliding contact. The sweeps converge with any number; a few save
@@ -134,6 +142,8 @@ class AcceleratedSweepsResolution final : public Resolution {
     }
 
     void begin(const BatchView& batch, std::span<const Contact> contacts, const ResolutionSettings& settings) {
+        law_.begin(batch, contacts, local_, settings);
+        rolling_.assign(local_.rolling.size(), {});
         swept_.resize(local_.contacts.size());
         bodies_before_.resize(local_.dynamic_bodies);
         body_direction_.assign(local_.dynamic_bodies, {Vec3::Zero(), Vec3::Zero()});
@@ -144,7 +154,7 @@ class AcceleratedSweepsResolution final : public Resolution {
             s.k = local_.collisionMatrixOf(frame);
             s.friction = frame.static_friction;
             s.largest_tangential = largestTangential(s.k);
-            s.target = closing < -settings.restitution_threshold ? -frame.restitution * closing : 0;
+            s.target = law_.separatingSpeed(i, frame, closing);
             s.impulse = frame.basis.transpose() * contacts[batch.contacts[i]].last_impulse;
             if (!(s.impulse[0] > 0) || !isResolvable(frame)) s.impulse.setZero();
             s.direction.setZero();
@@ -154,6 +164,7 @@ class AcceleratedSweepsResolution final : public Resolution {
 
     void noteBefore() {
         for (SweptContact& s : swept_) s.before = s.impulse;
+        for (SweptRolling& s : rolling_) s.before = s.impulse;
         for (std::size_t i = 0; i < bodies_before_.size(); ++i) {
             bodies_before_[i] = {local_.bodies[i].v, local_.bodies[i].w};
         }
@@ -163,9 +174,29 @@ class AcceleratedSweepsResolution final : public Resolution {
         const ContactFrame& frame = local_.contacts[i];
         const Vec3 velocity = local_.velocityOf(frame);
         if (!isResolvable(frame) || !velocity.allFinite()) return;
+        if (frame.rolling != ContactFrame::rolls_freely) {
+            resolveRolling(i);
+            return;
+        }
         const Vec3 impulse = projectedImpulse(frame, swept_[i], velocity);
         local_.push(frame, impulse - swept_[i].impulse);
         swept_[i].impulse = impulse;
+    }
+
+    void resolveRolling(std::size_t i) {
+        const ContactFrame& frame = local_.contacts[i];
+        SweptContact& swept = swept_[i];
+        SweptRolling& turned = rolling_[frame.rolling];
+        Vec6 excess = relativeTwist(frame, local_.bodies[frame.a], local_.bodies[frame.b]);
+        excess[0] -= swept.target;
+        Vec6 present;
+        present << swept.impulse, turned.impulse;
+        const Vec6 next = solveRolling(local_.rolling[frame.rolling], swept.friction, swept.friction, excess, present,
+                                       RollingRounds::few);
+        local_.push(frame, next.head<3>() - swept.impulse);
+        local_.turn(frame, next.tail<3>() - turned.impulse);
+        swept.impulse = next.head<3>();
+        turned.impulse = next.tail<3>();
     }
 
     Change changeOfSweep() const {
@@ -176,12 +207,30 @@ class AcceleratedSweepsResolution final : public Resolution {
             change.squared += k_row[0] * difference.squaredNorm();
             change.largest_speed = std::max(change.largest_speed, (swept_[i].k * difference).norm());
         }
+        if (!rolling_.empty()) addRolling(change);
         return change;
+    }
+
+    void addRolling(Change& change) const {
+        for (std::size_t i = 0; i < swept_.size(); ++i) {
+            const std::uint32_t rolling = local_.contacts[i].rolling;
+            if (rolling == ContactFrame::rolls_freely) continue;
+            const Mat6& k = local_.rolling[rolling].k;
+            const Vec3 difference = rolling_[rolling].impulse - rolling_[rolling].before;
+            change.squared += k(3, 3) * difference.squaredNorm();
+            change.largest_speed = std::max(change.largest_speed, (k.topRightCorner<3, 3>() * difference).norm());
+        }
     }
 
     /// Adds β times the last direction to impulses and velocities; the new direction is the sweep's change plus that.
     void accelerate(double beta) {
         for (SweptContact& s : swept_) {
+            const Vec3 change = s.impulse - s.before;
+            const Vec3 step = beta * s.direction;
+            s.impulse += step;
+            s.direction = change + step;
+        }
+        for (SweptRolling& s : rolling_) {
             const Vec3 change = s.impulse - s.before;
             const Vec3 step = beta * s.direction;
             s.impulse += step;
@@ -202,12 +251,18 @@ class AcceleratedSweepsResolution final : public Resolution {
         for (std::size_t i = 0; i < swept_.size(); ++i) {
             local_.contacts[i].impulse = local_.contacts[i].basis * swept_[i].impulse;
         }
-        local_.joints.settle(local_.contacts, local_.bodies);
+        for (const ContactFrame& frame : local_.contacts) {
+            if (frame.rolling == ContactFrame::rolls_freely) continue;
+            local_.rolling[frame.rolling].impulse_W = frame.basis * rolling_[frame.rolling].impulse;
+        }
+        local_.joints.settle(local_.contacts, local_.rolling, local_.bodies);
         local_.scatter(batch, contacts, bodies);
     }
 
     LocalBatch local_;
+    ContactLaw law_;
     std::vector<SweptContact> swept_;    ///< [contacts]
+    std::vector<SweptRolling> rolling_;  ///< as LocalBatch::rolling
     std::vector<Twist> bodies_before_;   ///< [dynamic bodies] at the beginning of the sweep
     std::vector<Twist> body_direction_;  ///< [dynamic bodies] last direction
 };

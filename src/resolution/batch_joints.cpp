@@ -164,11 +164,14 @@ void BatchJoints::gather(std::span<JointBlock> blocks, std::vector<LocalBody>& b
     }
 }
 
-void BatchJoints::respond(const ContactFrame& contact, const Vec3& impulse, std::span<const LocalBody> bodies) {
+void BatchJoints::respond(const ContactFrame& contact, const Vec3& impulse, const Vec3& angular,
+                          std::span<const LocalBody> bodies) {
     const Place a = placeOf(contact.a);
     const Place b = placeOf(contact.b);
     direct_a_ = directChange(bodies[contact.a], contact.r_a, impulse);
     direct_b_ = directChange(bodies[contact.b], contact.r_b, -impulse);
+    direct_a_.w += bodies[contact.a].inertia_inv * angular;
+    direct_b_.w -= bodies[contact.b].inertia_inv * angular;
     if (a.group != none && a.group == b.group) {
         groups_[a.group].system.respond(a.member, direct_a_, b.member, direct_b_);
         return;
@@ -177,22 +180,47 @@ void BatchJoints::respond(const ContactFrame& contact, const Vec3& impulse, std:
     if (b.group != none) groups_[b.group].system.respond(b.member, direct_b_, JointSystem::none, {});
 }
 
-Symmetric3 BatchJoints::collisionMatrix(const ContactFrame& contact, std::span<const LocalBody> bodies) {
+Twist BatchJoints::relativeChange(const ContactFrame& contact) const {
     const Place a = placeOf(contact.a);
     const Place b = placeOf(contact.b);
+    const Twist& change_a = a.group != none ? groups_[a.group].system.changes()[a.member] : direct_a_;
+    const Twist& change_b = b.group != none ? groups_[b.group].system.changes()[b.member] : direct_b_;
+    return {change_a.v + change_a.w.cross(contact.r_a) - change_b.v - change_b.w.cross(contact.r_b),
+            change_a.w - change_b.w};
+}
+
+Symmetric3 BatchJoints::collisionMatrix(const ContactFrame& contact, std::span<const LocalBody> bodies) {
     Mat3 k;
     for (Eigen::Index i = 0; i < 3; ++i) {
-        respond(contact, contact.basis.col(i), bodies);
-        const Twist& change_a = a.group != none ? groups_[a.group].system.changes()[a.member] : direct_a_;
-        const Twist& change_b = b.group != none ? groups_[b.group].system.changes()[b.member] : direct_b_;
-        const Vec3 change = change_a.v + change_a.w.cross(contact.r_a) - change_b.v - change_b.w.cross(contact.r_b);
-        k.col(i) = contact.basis.transpose() * change;
+        respond(contact, contact.basis.col(i), Vec3::Zero(), bodies);
+        k.col(i) = contact.basis.transpose() * relativeChange(contact).v;
     }
     return Symmetric3::from(0.5 * (k + k.transpose()));
 }
 
+Mat6 BatchJoints::wrenchMatrix(const ContactFrame& contact, std::span<const LocalBody> bodies) {
+    Mat6 k;
+    for (Eigen::Index i = 0; i < 6; ++i) {
+        const Vec3 direction = contact.basis.col(i % 3);
+        const Vec3 none_such = Vec3::Zero();
+        respond(contact, i < 3 ? direction : none_such, i < 3 ? none_such : direction, bodies);
+        const Twist change = relativeChange(contact);
+        k.col(i) << contact.basis.transpose() * change.v, contact.basis.transpose() * change.w;
+    }
+    return 0.5 * (k + k.transpose());
+}
+
 void BatchJoints::push(const ContactFrame& contact, const Vec3& impulse, std::span<LocalBody> bodies) {
-    respond(contact, impulse, bodies);
+    respond(contact, impulse, Vec3::Zero(), bodies);
+    applyResponse(contact, bodies);
+}
+
+void BatchJoints::turn(const ContactFrame& contact, const Vec3& impulse, std::span<LocalBody> bodies) {
+    respond(contact, Vec3::Zero(), impulse, bodies);
+    applyResponse(contact, bodies);
+}
+
+void BatchJoints::applyResponse(const ContactFrame& contact, std::span<LocalBody> bodies) {
     const std::uint32_t group_a = groupOf(contact.a);
     const std::uint32_t group_b = groupOf(contact.b);
     if (group_a == none) add(direct_a_, bodies[contact.a]);
@@ -217,20 +245,23 @@ bool BatchJoints::resolveBounds(std::span<LocalBody> bodies, double threshold) {
     return changed;
 }
 
-void BatchJoints::settle(std::span<const ContactFrame> contacts, std::span<const LocalBody> bodies) {
+void BatchJoints::settle(std::span<const ContactFrame> contacts, std::span<const RollingContact> rolling,
+                         std::span<const LocalBody> bodies) {
     if (count_ == 0) return;
     settled_.resize(std::max(settled_.size(), count_));
     for (std::size_t i = 0; i < count_; ++i) settled_[i].assign(groups_[i].local.size(), Twist{});
-    const auto add_direct = [&](std::uint32_t body, const Vec3& r, const Vec3& impulse) {
+    const auto add_direct = [&](std::uint32_t body, const Vec3& r, const Vec3& impulse, const Vec3& angular) {
         const Place place = placeOf(body);
         if (place.group == none) return;
         const Twist change = directChange(bodies[body], r, impulse);
         settled_[place.group][place.member].v += change.v;
-        settled_[place.group][place.member].w += change.w;
+        settled_[place.group][place.member].w += change.w + bodies[body].inertia_inv * angular;
     };
     for (const ContactFrame& contact : contacts) {
-        add_direct(contact.a, contact.r_a, contact.impulse);
-        add_direct(contact.b, contact.r_b, -contact.impulse);
+        const bool rolls_freely = contact.rolling == ContactFrame::rolls_freely;
+        const Vec3 angular = rolls_freely ? Vec3::Zero() : rolling[contact.rolling].impulse_W;
+        add_direct(contact.a, contact.r_a, contact.impulse, angular);
+        add_direct(contact.b, contact.r_b, -contact.impulse, -angular);
     }
     for (std::size_t i = 0; i < count_; ++i) groups_[i].settle(settled_[i]);
 }

@@ -9,6 +9,7 @@
 
 #include "joints/joint_system.h"
 #include "resolution/contact_frame.h"
+#include "resolution/rolling.h"
 
 namespace cairn {
 
@@ -61,7 +62,12 @@ class BatchJoints {
     Symmetric3 collisionMatrix(const ContactFrame& contact, std::span<const LocalBody> bodies);
     /// Applies an impulse on A at a contact. @param impulse [N·s, W] @pre holds(contact)
     void push(const ContactFrame& contact, const Vec3& impulse, std::span<LocalBody> bodies);
-    /// Calls use(local body, change) for all that the last push() changed. @pre holds(contact), that of the push
+    /// Likewise an angular impulse. @param impulse [N·m·s, W] @pre holds(contact)
+    void turn(const ContactFrame& contact, const Vec3& impulse, std::span<LocalBody> bodies);
+    /// wrenchMatrix() with the joints holding. @pre holds(contact)
+    Mat6 wrenchMatrix(const ContactFrame& contact, std::span<const LocalBody> bodies);
+    /// Calls use(local body, change) for all that the last push() or turn() changed. @pre holds(contact), that of the
+    /// push
     template <class Use>
     void forChanged(const ContactFrame& contact, const Use& use) const;
     /// Takes the masses of the bodies as they are now.
@@ -71,7 +77,8 @@ class BatchJoints {
     bool resolveBounds(std::span<LocalBody> bodies, double threshold);
     /// Finds the impulses of the joints from the sums of the contacts' impulses, for resolutions that change velocities
     /// in other ways than by push(). @pre no body's mass was changed
-    void settle(std::span<const ContactFrame> contacts, std::span<const LocalBody> bodies);
+    void settle(std::span<const ContactFrame> contacts, std::span<const RollingContact> rolling,
+                std::span<const LocalBody> bodies);
     /// Writes the impulses into the blocks.
     void scatter() const;
 
@@ -86,8 +93,12 @@ class BatchJoints {
 
     std::uint32_t groupOf(std::uint32_t body) const { return body < place_.size() ? place_[body].group : none; }
     Place placeOf(std::uint32_t body) const { return body < place_.size() ? place_[body] : Place{}; }
-    /// What an impulse changes of A and B directly, and of all else through respond().
-    void respond(const ContactFrame& contact, const Vec3& impulse, std::span<const LocalBody> bodies);
+    /// What impulse and angular impulse change of A and B directly, and of all else through respond().
+    void respond(const ContactFrame& contact, const Vec3& impulse, const Vec3& angular,
+                 std::span<const LocalBody> bodies);
+    void applyResponse(const ContactFrame& contact, std::span<LocalBody> bodies);
+    /// Of A relative to B at the contact, by the last respond().
+    Twist relativeChange(const ContactFrame& contact) const;
 
     std::vector<BatchJointGroup> groups_;  ///< the first count_ are in use
     std::size_t count_ = 0;

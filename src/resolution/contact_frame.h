@@ -22,17 +22,20 @@ struct alignas(64) LocalBody {
 
 /// What stays constant of a contact while its batch is resolved, and the sum of its impulses. Four cache lines.
 struct alignas(64) ContactFrame {
-    Mat3 basis;                   ///< B = [x y z], contact to world (3.3.4)
-    Vec3 r_a;                     ///< from the centre of mass of A to the contact [m, W]
-    Vec3 r_b;                     ///< from the centre of mass of B to the contact [m, W]
-    Symmetric3 k_inv;             ///< K⁻¹ in contact coordinates [kg]
-    Vec3 k_row;                   ///< first row of K in contact coordinates [1/kg]
-    Vec3 impulse;                 ///< sum of the impulses on A [N·s, W]
-    double restitution = 0;       ///< e
-    double static_friction = 0;   ///< µs
-    double kinetic_friction = 0;  ///< µk
-    std::uint32_t a = 0;          ///< index of A's LocalBody
-    std::uint32_t b = 0;          ///< index of B's LocalBody
+    Mat3 basis;                            ///< B = [x y z], contact to world (3.3.4)
+    Vec3 r_a;                              ///< from the centre of mass of A to the contact [m, W]
+    Vec3 r_b;                              ///< from the centre of mass of B to the contact [m, W]
+    Symmetric3 k_inv;                      ///< K⁻¹ in contact coordinates [kg]
+    Vec3 k_row;                            ///< first row of K in contact coordinates [1/kg]
+    Vec3 impulse;                          ///< sum of the impulses on A [N·s, W]
+    double restitution = 0;                ///< e
+    double static_friction = 0;            ///< µs
+    double kinetic_friction = 0;           ///< µk
+    std::uint32_t a = 0;                   ///< index of A's LocalBody
+    std::uint32_t b = 0;                   ///< index of B's LocalBody
+    std::uint32_t rolling = rolls_freely;  ///< index of its RollingContact
+
+    static constexpr std::uint32_t rolls_freely = UINT32_MAX;
 };
 
 /// Orthonormal basis whose first column is the normal. @source thesis (3.3.1)–(3.3.4)

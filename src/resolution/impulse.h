@@ -29,10 +29,8 @@ inline Vec3 slidingImpulse(const ContactFrame& frame, const Vec3& stick, double 
 }
 
 /// The impulse on A that resolves a closing contact [N·s, contact coordinates]; B gets the opposite.
-/// @param velocity ϑA − ϑB [m/s, contact coordinates], velocity[0] < 0
-/// @param restitution_threshold closing speed below which e = 0 [m/s] @source thesis Algorithm 8 with Algorithm 11
-inline Vec3 contactImpulse(const ContactFrame& frame, const Vec3& velocity, double restitution_threshold) {
-    const double e = velocity[0] > -restitution_threshold ? 0 : frame.restitution;
+/// @param velocity ϑA − ϑB [m/s, contact coordinates], velocity[0] < 0 @param e restitution @source thesis Algorithm 8
+inline Vec3 newtonImpulse(const ContactFrame& frame, const Vec3& velocity, double e) {
     const Vec3 target(-(1 + e) * velocity[0], -velocity[1], -velocity[2]);
     const Vec3 j = frame.k_inv * target;
     // The thesis's cone test (3.5.4) ignores the sign of j0. A j0 that pulls, possible when a fast sliding contact is
@@ -40,6 +38,12 @@ inline Vec3 contactImpulse(const ContactFrame& frame, const Vec3& velocity, doub
     const double cone = frame.static_friction * j[0];
     if (j[0] > 0 && j[1] * j[1] + j[2] * j[2] <= cone * cone) return j;
     return slidingImpulse(frame, j, target[0]);
+}
+
+/// The same with the contact's restitution. @param restitution_threshold closing speed below which e = 0 [m/s]
+/// @source thesis Algorithm 8 with Algorithm 11
+inline Vec3 contactImpulse(const ContactFrame& frame, const Vec3& velocity, double restitution_threshold) {
+    return newtonImpulse(frame, velocity, velocity[0] > -restitution_threshold ? 0 : frame.restitution);
 }
 
 /// How an impulse changes one body's velocities.
@@ -57,6 +61,11 @@ inline void apply(const VelocityChange& change, LocalBody& body) {
     body.v += change.v;
     body.w += change.w;
     body.struck = 1;
+}
+
+/// How an angular impulse changes it. @param impulse [N·m·s, W]
+inline VelocityChange angularChange(const LocalBody& body, const Vec3& impulse) {
+    return {Vec3::Zero(), body.inertia_inv * impulse};
 }
 
 /// Changes of both bodies by one resolution.

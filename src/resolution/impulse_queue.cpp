@@ -27,6 +27,7 @@ void QueueSolver::begin(const BatchView& view, std::span<const Contact> contacts
     settings_ = settings;
     threshold_ = -settings.resolution_threshold;
     batch.gather(view, contacts, bodies);
+    law_.begin(view, contacts, batch, settings);
     rows.build(batch);
     delta_.assign(batch.contacts.size() + 1, infinity);
 }
@@ -69,12 +70,57 @@ void QueueSolver::pushJointed(Queue& queue, std::uint32_t contact, const Vec3& j
     ContactFrame& frame = batch.contacts[contact];
     frame.impulse += frame.basis * j;
     batch.push(frame, j);
+    jointedChanged(queue, contact);
+}
+
+template <class Queue>
+void QueueSolver::jointedChanged(Queue& queue, std::uint32_t contact) {
+    const ContactFrame& frame = batch.contacts[contact];
     batch.joints.forChanged(frame, [&](std::uint32_t body, const Twist& change) {
         if (batch.bodies[body].mass_inv > 0) rows.update(body, {change.v, change.w}, delta_);
     });
     batch.joints.forChanged(frame, [&](std::uint32_t body, const Twist&) {
         if (batch.bodies[body].mass_inv > 0) queue.bodyChanged(body);
     });
+}
+
+template <class Queue>
+void QueueSolver::freeChanged(Queue& queue, std::uint32_t contact, const ContactChange& change) {
+    const ContactFrame& frame = batch.contacts[contact];
+    // A body of infinite mass keeps its velocity and with it the δ of its contacts.
+    const bool a_changes = batch.bodies[frame.a].mass_inv > 0;
+    const bool b_changes = batch.bodies[frame.b].mass_inv > 0;
+    if (a_changes) rows.update(frame.a, change.a, delta_);
+    if (b_changes) rows.update(frame.b, change.b, delta_);
+    // Only now, with the contacts of both bodies complete, may the queue look at δ.
+    if (a_changes) queue.bodyChanged(frame.a);
+    if (b_changes) queue.bodyChanged(frame.b);
+}
+
+/// As the end of resolve(), with another law than the thesis's.
+template <class Queue>
+void QueueSolver::resolveByLaw(Queue& queue, std::uint32_t contact, const Vec3& velocity) {
+    ContactFrame& frame = batch.contacts[contact];
+    const ContactWrench wrench = law_.resolve(contact, batch, velocity);
+    const bool turns = !wrench.angular.isZero(0);
+    if (batch.joints.holds(frame)) {
+        pushJointed(queue, contact, wrench.impulse);
+        if (!turns) return;
+        batch.turn(frame, wrench.angular);
+        jointedChanged(queue, contact);
+        return;
+    }
+    LocalBody& a = batch.bodies[frame.a];
+    LocalBody& b = batch.bodies[frame.b];
+    ContactChange change = applyImpulse(frame, wrench.impulse, a, b);
+    if (turns) {
+        const Vec3 w_a = a.w;
+        const Vec3 w_b = b.w;
+        batch.turn(frame, wrench.angular);
+        change.a.w += a.w - w_a;
+        change.b.w += b.w - w_b;
+    }
+    freeChanged(queue, contact, change);
 }
 
 /// Lines 12–23 of Algorithm 9. @return 1 if the contact was resolved, 0 if it turned out not to close
@@ -92,20 +138,16 @@ std::int64_t QueueSolver::resolve(Queue& queue, std::uint32_t contact) {
         return 0;
     }
     delta_[contact] = velocity[0];
+    if (!law_.isThesis()) {
+        resolveByLaw(queue, contact, velocity);
+        return 1;
+    }
     const Vec3 j = contactImpulse(frame, velocity, settings_.restitution_threshold);
     if (batch.joints.holds(frame)) {
         pushJointed(queue, contact, j);
         return 1;
     }
-    const ContactChange change = applyImpulse(frame, j, a, b);
-    // A body of infinite mass keeps its velocity and with it the δ of its contacts.
-    const bool a_changes = a.mass_inv > 0;
-    const bool b_changes = b.mass_inv > 0;
-    if (a_changes) rows.update(frame.a, change.a, delta_);
-    if (b_changes) rows.update(frame.b, change.b, delta_);
-    // Only now, with the contacts of both bodies complete, may the queue look at δ.
-    if (a_changes) queue.bodyChanged(frame.a);
-    if (b_changes) queue.bodyChanged(frame.b);
+    freeChanged(queue, contact, applyImpulse(frame, j, a, b));
     return 1;
 }
 

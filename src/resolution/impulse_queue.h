@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "resolution/contact_law.h"
+#include "resolution/impulse.h"
 #include "resolution/local_batch.h"
 #include "resolution/normal_rows.h"
 #include "resolution/queue.h"
@@ -47,9 +49,16 @@ class QueueSolver {
     template <class Queue>
     void pushJointed(Queue& queue, std::uint32_t contact, const Vec3& j);
     template <class Queue>
+    void resolveByLaw(Queue& queue, std::uint32_t contact, const Vec3& velocity);
+    template <class Queue>
+    void jointedChanged(Queue& queue, std::uint32_t contact);
+    template <class Queue>
+    void freeChanged(Queue& queue, std::uint32_t contact, const ContactChange& change);
+    template <class Queue>
     std::int64_t resolve(Queue& queue, std::uint32_t contact);
 
     ResolutionSettings settings_;
+    ContactLaw law_;
     double threshold_ = 0;  ///< thr_res < 0 [m/s] (3.4.3)
     /// [contacts + 1] δ = ϑA0 − ϑB0 of the members [m/s]; all else has +∞, which updates keep. The last is NormalRows'.
     std::vector<double> delta_;

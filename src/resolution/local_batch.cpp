@@ -36,6 +36,7 @@ void LocalBatch::gather(const BatchView& batch, std::span<const Contact> all_con
     dynamic_bodies = bodies.size();
     joints.gather(batch.joints, bodies, local_of_slot_);
     contacts.resize(batch.contacts.size());
+    rolling.clear();
     for (std::size_t i = 0; i < contacts.size(); ++i) {
         const Contact& contact = all_contacts[batch.contacts[i]];
         ContactFrame& frame = contacts[i];
@@ -48,6 +49,11 @@ void LocalBatch::gather(const BatchView& batch, std::span<const Contact> all_con
         frame.static_friction = contact.static_friction;
         frame.kinetic_friction = contact.kinetic_friction;
         frame.impulse.setZero();
+        frame.rolling = ContactFrame::rolls_freely;
+        if (contact.rolling_friction > 0 || contact.spinning_friction > 0) {
+            frame.rolling = static_cast<std::uint32_t>(rolling.size());
+            rolling.push_back({.rolling = contact.rolling_friction, .spinning = contact.spinning_friction});
+        }
         updateCollisionMatrixOf(frame);
     }
     for (const LocalBody& body : bodies) local_of_slot_[body.slot] = none;
@@ -63,6 +69,21 @@ void LocalBatch::push(const ContactFrame& c, const Vec3& impulse) {
     apply(velocityChange(bodies[c.b], c.r_b, -impulse_W), bodies[c.b]);
 }
 
+void LocalBatch::turn(const ContactFrame& c, const Vec3& impulse) {
+    const Vec3 impulse_W = c.basis * impulse;
+    rolling[c.rolling].impulse_W += impulse_W;
+    if (joints.holds(c)) {
+        joints.turn(c, impulse_W, bodies);
+        return;
+    }
+    apply(angularChange(bodies[c.a], impulse_W), bodies[c.a]);
+    apply(angularChange(bodies[c.b], -impulse_W), bodies[c.b]);
+}
+
+void LocalBatch::updateRolling(const ContactFrame& c) {
+    rolling[c.rolling].k = joints.holds(c) ? joints.wrenchMatrix(c, bodies) : wrenchMatrix(c, bodies[c.a], bodies[c.b]);
+}
+
 void LocalBatch::scatter(const BatchView& batch, std::span<Contact> all_contacts, const BodyState& state) const {
     for (std::size_t i = 0; i < dynamic_bodies; ++i) {
         const LocalBody& body = bodies[i];
@@ -73,7 +94,12 @@ void LocalBatch::scatter(const BatchView& batch, std::span<Contact> all_contacts
         state.w[body.slot] = body.w;
     }
     joints.scatter();
-    for (std::size_t i = 0; i < contacts.size(); ++i) all_contacts[batch.contacts[i]].impulse += contacts[i].impulse;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        const ContactFrame& frame = contacts[i];
+        Contact& contact = all_contacts[batch.contacts[i]];
+        contact.impulse += frame.impulse;
+        if (frame.rolling != ContactFrame::rolls_freely) contact.angular_impulse += rolling[frame.rolling].impulse_W;
+    }
 }
 
 }  // namespace cairn

@@ -8,16 +8,18 @@
 #include "resolution/batch_joints.h"
 #include "resolution/contact_frame.h"
 #include "resolution/resolution.h"
+#include "resolution/rolling.h"
 
 namespace cairn {
 
 /// Works on copies: masses may be changed here (shock propagation) without touching those of the world.
 class LocalBatch {
   public:
-    std::vector<LocalBody> bodies;       ///< the batch's dynamic bodies, then the fixed bodies they touch
-    std::vector<ContactFrame> contacts;  ///< in the batch's order
-    std::size_t dynamic_bodies = 0;      ///< bodies[i] is dynamic for i below this
-    BatchJoints joints;                  ///< hold at any time: impulses at contacts go through them
+    std::vector<LocalBody> bodies;        ///< the batch's dynamic bodies, then the fixed bodies they touch
+    std::vector<ContactFrame> contacts;   ///< in the batch's order
+    std::vector<RollingContact> rolling;  ///< of the contacts that resist rolling or spinning
+    std::size_t dynamic_bodies = 0;       ///< bodies[i] is dynamic for i below this
+    BatchJoints joints;                   ///< hold at any time: impulses at contacts go through them
 
     /// Initialises bodies and contacts (lines 2–4 of Algorithm 9). Keeps its memory between calls.
     void gather(const BatchView& batch, std::span<const Contact> all_contacts, const BodyState& state);
@@ -30,12 +32,18 @@ class LocalBatch {
     Symmetric3 collisionMatrixOf(const ContactFrame& c) {
         return joints.holds(c) ? joints.collisionMatrix(c, bodies) : collisionMatrix(c, bodies[c.a], bodies[c.b]);
     }
-    void updateCollisionMatrixOf(ContactFrame& c) { setCollisionMatrix(c, collisionMatrixOf(c)); }
+    void updateCollisionMatrixOf(ContactFrame& c) {
+        setCollisionMatrix(c, collisionMatrixOf(c));
+        if (c.rolling != ContactFrame::rolls_freely) updateRolling(c);
+    }
     /// Applies an impulse, on A, at a contact to its bodies and all that joints tie to them.
     /// @param impulse [N·s, contact coordinates]
     void push(const ContactFrame& c, const Vec3& impulse);
+    /// Likewise an angular impulse, on A. @param impulse [N·m·s, contact coordinates] @pre the contact resists rolling
+    void turn(const ContactFrame& c, const Vec3& impulse);
 
   private:
+    void updateRolling(const ContactFrame& c);
     std::uint32_t localIndex(BodyIndex slot, const BodyState& state);
 
     std::vector<std::uint32_t> local_of_slot_;  ///< [slots] of the world; `none` outside of gather()

@@ -1,6 +1,7 @@
 #include "resolution/resolution.h"
 
 #include "resolution/algorithms.h"
+#include "resolution/impacts_first.h"
 
 namespace cairn {
 
@@ -20,11 +21,11 @@ class NoResolution final : public Resolution {
 std::unique_ptr<Resolution> makeResolution(ResolutionKind kind) {
     switch (kind) {
         case ResolutionKind::impulse_queue:
-            return makeImpulseQueueResolution();
+            return makeImpactsFirst(makeImpulseQueueResolution(), Impacts::sequential);
         case ResolutionKind::sweep:
-            return makeSweepResolution();
+            return makeImpactsFirst(makeSweepResolution(), Impacts::sequential);
         case ResolutionKind::accelerated_sweeps:
-            return makeAcceleratedSweepsResolution();
+            return makeImpactsFirst(makeAcceleratedSweepsResolution(), Impacts::simultaneous);
         case ResolutionKind::none:
             break;
     }

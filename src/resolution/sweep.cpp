@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "resolution/algorithms.h"
-#include "resolution/impulse.h"
+#include "resolution/contact_law.h"
 #include "resolution/local_batch.h"
 
 namespace cairn {
@@ -17,6 +17,7 @@ class SweepResolution final : public Resolution {
     ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
                              const ResolutionSettings& settings) override {
         local_.gather(batch, contacts, bodies);
+        law_.begin(batch, contacts, local_, settings);
         ResolutionCounts counts;
         for (std::int64_t sweep = 0; sweep < settings.sweeps; ++sweep) {
             const bool bounds_changed = local_.joints.resolveBounds(local_.bodies, settings.resolution_threshold);
@@ -31,19 +32,22 @@ class SweepResolution final : public Resolution {
   private:
     std::int64_t sweepOnce(const ResolutionSettings& settings) {
         std::int64_t resolved = 0;
-        for (ContactFrame& contact : local_.contacts) {
+        for (std::size_t i = 0; i < local_.contacts.size(); ++i) {
+            ContactFrame& contact = local_.contacts[i];
             const Vec3 velocity = local_.velocityOf(contact);
             const bool closing = velocity[0] < -settings.resolution_threshold && std::isfinite(velocity[0]);
             if (!closing || !isResolvable(contact)) continue;
-            const Vec3 j = contactImpulse(contact, velocity, settings.restitution_threshold);
-            local_.push(contact, j);
-            contact.impulse += contact.basis * j;
+            const ContactWrench wrench = law_.resolve(i, local_, velocity);
+            local_.push(contact, wrench.impulse);
+            contact.impulse += contact.basis * wrench.impulse;
+            if (!wrench.angular.isZero(0)) local_.turn(contact, wrench.angular);
             ++resolved;
         }
         return resolved;
     }
 
     LocalBatch local_;
+    ContactLaw law_;
 };
 
 }  // namespace

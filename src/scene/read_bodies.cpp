@@ -19,7 +19,7 @@ std::string knownMaterials(const SceneReading& reading) {
 
 /// @param inherited values of the members that are not given
 PairProperties readPair(const JsonNode& node, PairProperties inherited) {
-    node.expectKeys({"restitution", "static_friction", "kinetic_friction"});
+    node.expectKeys({"restitution", "static_friction", "kinetic_friction", "rolling_friction", "spinning_friction"});
     PairProperties pair = inherited;
     if (const auto value = node.find("restitution")) {
         pair.restitution = value->nonNegative();
@@ -27,6 +27,8 @@ PairProperties readPair(const JsonNode& node, PairProperties inherited) {
     }
     if (const auto value = node.find("static_friction")) pair.static_friction = value->nonNegative();
     if (const auto value = node.find("kinetic_friction")) pair.kinetic_friction = value->nonNegative();
+    if (const auto value = node.find("rolling_friction")) pair.rolling_friction = value->nonNegative();
+    if (const auto value = node.find("spinning_friction")) pair.spinning_friction = value->nonNegative();
     if (pair.kinetic_friction > pair.static_friction) {
         node.fail(
             fmt::format("has kinetic_friction {} above static_friction {}{}; kinetic friction must be 0 to "

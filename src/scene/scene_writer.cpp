@@ -155,13 +155,18 @@ std::string pairText(const PairProperties& pair, const PairProperties& inherited
     add("restitution", pair.restitution, inherited.restitution);
     add("static_friction", pair.static_friction, inherited.static_friction);
     add("kinetic_friction", pair.kinetic_friction, inherited.kinetic_friction);
+    add("rolling_friction", pair.rolling_friction, inherited.rolling_friction);
+    add("spinning_friction", pair.spinning_friction, inherited.spinning_friction);
     return "{" + out + "}";
 }
 
 std::string contactsText(const Scene& scene) {
     const PairProperties& d = scene.default_pair;
-    std::string out = fmt::format(R"({{"default":{{"restitution":{},"static_friction":{},"kinetic_friction":{}}})",
+    std::string out = fmt::format(R"({{"default":{{"restitution":{},"static_friction":{},"kinetic_friction":{})",
                                   number(d.restitution), number(d.static_friction), number(d.kinetic_friction));
+    if (!same(d.rolling_friction, 0)) out += fmt::format(R"(,"rolling_friction":{})", number(d.rolling_friction));
+    if (!same(d.spinning_friction, 0)) out += fmt::format(R"(,"spinning_friction":{})", number(d.spinning_friction));
+    out += "}";
     for (const auto& [names, pair] : scene.pairs) {
         out += fmt::format(",\n{}:{}", text(names.first + "/" + names.second), pairText(pair, d));
     }

@@ -120,6 +120,6 @@ void sealFrame(std::span<std::byte> frame, FrameKind kind, std::uint32_t version
 std::size_t frameHeadSize();
 
 /// The version of the format that is written.
-inline constexpr std::uint32_t snapshot_version = 3;
+inline constexpr std::uint32_t snapshot_version = 4;
 
 }  // namespace cairn

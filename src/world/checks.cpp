@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "math/rotation.h"
+#include "world/totals.h"
 
 namespace cairn {
 
@@ -73,16 +74,6 @@ void checkContact(const WorldState& world, std::size_t index) {
 }
 
 }  // namespace
-
-double kineticEnergyOf(const BodyStorage& b) {
-    double energy = 0;
-    for (BodyIndex i = 0; i < b.slots(); ++i) {
-        if (b.kind[i] != BodyKind::dynamic) continue;
-        const Vec3 w_B = b.orientation[i].conjugate() * b.w[i];
-        energy += 0.5 * (b.mass[i] * b.v[i].squaredNorm() + w_B.dot(b.inertia_B[i].cwiseProduct(w_B)));
-    }
-    return energy;
-}
 
 void checkBatches(const WorldState& world) {
     const Batches& batches = world.data.batches;

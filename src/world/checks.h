@@ -5,9 +5,6 @@
 
 namespace cairn {
 
-/// Energy that the bodies move with [J]. Fixed bodies have none.
-double kineticEnergyOf(const BodyStorage& bodies);
-
 /// @throws InvariantError unless the batches split the contacts as they must
 void checkBatches(const WorldState& world);
 

@@ -63,7 +63,9 @@ void collidePair(const BodyStorage& bodies, const MaterialTable& materials, cons
                                 .distance = distance,
                                 .restitution = properties.restitution,
                                 .static_friction = properties.static_friction,
-                                .kinetic_friction = properties.kinetic_friction});
+                                .kinetic_friction = properties.kinetic_friction,
+                                .rolling_friction = properties.rolling_friction,
+                                .spinning_friction = properties.spinning_friction});
         }
     };
     forEachManifold(bodies.shape[pair.a], bodies.shapePose(pair.a), bodies.shape[pair.b], bodies.shapePose(pair.b),

@@ -49,11 +49,27 @@ void saveList(ByteWriter& out, const List& list, const SaveElement& save) {
 
 // Each Stream is a ByteWriter with a const object or a ByteReader with one to fill.
 
+/// Since version 4.
+template <class Pair>
+void rollingFields(ByteWriter& out, const Pair& pair) {
+    field(out, pair.rolling_friction);
+    field(out, pair.spinning_friction);
+}
+template <class Pair>
+void rollingFields(ByteReader& in, Pair& pair) {
+    pair.rolling_friction = 0;
+    pair.spinning_friction = 0;
+    if (in.version() < 4) return;
+    field(in, pair.rolling_friction);
+    field(in, pair.spinning_friction);
+}
+
 template <class Stream, class Pair>
 void pairFields(Stream& stream, Pair& pair) {
     field(stream, pair.restitution);
     field(stream, pair.static_friction);
     field(stream, pair.kinetic_friction);
+    rollingFields(stream, pair);
 }
 
 template <class Stream, class World>
@@ -145,6 +161,16 @@ void jointFields(Stream& stream, AnyJoint& joint) {
     field(stream, joint.angular_impulse);
 }
 
+/// Since version 4.
+template <class AnyContact>
+void turning(ByteWriter& out, const AnyContact& contact) {
+    field(out, contact.angular_impulse);
+}
+template <class AnyContact>
+void turning(ByteReader& in, AnyContact& contact) {
+    if (in.version() >= 4) field(in, contact.angular_impulse);
+}
+
 /// What World::contacts() shows and removeBody() needs; the rest of a contact is of use within a step only.
 template <class Stream, class AnyContact>
 void contactFields(Stream& stream, AnyContact& contact) {
@@ -154,6 +180,7 @@ void contactFields(Stream& stream, AnyContact& contact) {
     field(stream, contact.normal);
     field(stream, contact.distance);
     field(stream, contact.impulse);
+    turning(stream, contact);
 }
 
 template <class Stream, class AnyBatches>
@@ -174,6 +201,18 @@ void memoryFields(Stream& stream, Entry& entry) {
     field(stream, entry.impulse);
 }
 
+/// Since version 4.
+template <class AnyDiagnostics>
+void diagnosticsFields(ByteWriter& out, const AnyDiagnostics& diagnostics) {
+    Diagnostics copy = diagnostics;
+    for (const DiagnosticsField& f : cairn::diagnosticsFields()) out.put(f.of(copy));
+}
+template <class AnyDiagnostics>
+void diagnosticsFields(ByteReader& in, AnyDiagnostics& diagnostics) {
+    if (in.version() < 4) return;
+    for (const DiagnosticsField& f : cairn::diagnosticsFields()) f.of(diagnostics) = in.get<double>();
+}
+
 /// All but the wall times, which are no part of the state: equal worlds have equal snapshots.
 template <class Stream, class AnyStatistics>
 void statisticsFields(Stream& stream, AnyStatistics& statistics) {
@@ -191,6 +230,7 @@ void statisticsFields(Stream& stream, AnyStatistics& statistics) {
     field(stream, statistics.woken);
     field(stream, statistics.largest_overlap);
     field(stream, statistics.mean_overlap);
+    diagnosticsFields(stream, statistics.diagnostics);
 }
 
 /// Since version 3.

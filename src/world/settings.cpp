@@ -23,6 +23,9 @@ constexpr std::array<std::string_view, 2> broad_phase_names = {"hash_grids", "al
 constexpr std::array<std::string_view, 2> correction_names = {"propagated", "none"};
 constexpr std::array<std::string_view, 4> resolution_names = {"impulse_queue", "sweep", "accelerated_sweeps", "none"};
 constexpr std::array<std::string_view, 2> order_names = {"highest_closing_speed", "arbitrary"};
+constexpr std::array<std::string_view, 2> restitution_law_names = {"newton", "energetic"};
+constexpr std::array<std::string_view, 2> restitution_speed_names = {"closing", "touching"};
+constexpr std::array<std::string_view, 3> impacts_names = {"of_resolution", "sequential", "simultaneous"};
 
 template <auto Stage, auto Member>
 auto& member(auto& settings) {
@@ -109,6 +112,14 @@ const std::vector<SettingField>& fields() {
                                                         "closing speed above which a contact is resolved (3.4.3)"),
         plain<&S::resolution, &R::restitution_threshold>("restitution_threshold", "resolution", "m/s", 0, 1e3,
                                                          "closing speed below which restitution is zero (3.8.1)"),
+        choice<&S::resolution, &R::restitution_law, restitution_law_names>(
+            "restitution_law", "resolution",
+            "restitution as a ratio of speeds (the thesis) or, never gaining energy, of works"),
+        choice<&S::resolution, &R::restitution_speed, restitution_speed_names>(
+            "restitution_speed", "resolution",
+            "restitution takes the closing speed with the step's forces (the thesis) or that at the touching"),
+        choice<&S::resolution, &R::impacts, impacts_names>(
+            "impacts", "resolution", "impacts in touching chains: as the resolution does, in sequence or all at once"),
         plain<&S::resolution, &R::global_iterations>(
             "global_iterations", "resolution", "", 0, 1e6,
             "limit of resolutions as a multiple of the batch's contacts; 0 = unlimited"),
@@ -145,6 +156,8 @@ const std::vector<SettingField>& fields() {
                                              "batches with at least so many contacts are handed out one by one"),
         plain<&S::limits, &LimitSettings::body_limit>("body_limit", "limits", "", 1, 1e9,
                                                       "most bodies at one time; one more is refused"),
+        plain<&S::diagnostics, &DiagnosticsSettings::diagnostics>(
+            "diagnostics", "diagnostics", "", 0, 1, "every step measures momentum, energy accounts and residuals"),
     };
     return all;
 }
@@ -205,6 +218,11 @@ SettingValue converted(const SettingField& field, const SettingValue& given) {
 
 /// Refuses a combination of settings. @throws InputError
 void requireTogether(const Settings& s, double gravity) {
+    if (s.resolution.restitution_law == RestitutionLaw::energetic && s.resolution.impacts == Impacts::simultaneous) {
+        throw InputError(
+            "restitution_law 'energetic' is a law of single impacts and cannot hold with impacts 'simultaneous'; set "
+            "impacts to 'sequential' or restitution_law to 'newton'");
+    }
     const double speed = gravity * s.timeStep();
     if (!s.sleep.sleeping || gravity == 0) return;
     if (s.sleep.sleep_threshold >= speed) {

@@ -4,9 +4,11 @@
 #include "sleeping/sleeping.h"
 #include "world/checks.h"
 #include "world/detection.h"
+#include "world/diagnostics.h"
 #include "world/events.h"
 #include "world/joints.h"
 #include "world/quarantine.h"
+#include "world/totals.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -38,6 +40,10 @@ void forBatches(const StepData& data, const Executor& executor, const Work& work
         small_batch_grain);
 }
 
+void measureIfAsked(WorldState& world, Measured point) {
+    if (world.settings.diagnostics.diagnostics) measure(world, point);
+}
+
 void buildBatchesStage(WorldState& world) {
     StepData& data = world.data;
     buildBatches(world.bodies.kind, data.contacts, data.batch_scratch, data.batches, world.joints);
@@ -51,6 +57,9 @@ void correctStage(WorldState& world) {
     const BodyState bodies = world.bodies.state();
     const bool traced = world.trace.tracing == Tracing::on;
     if (traced) world.trace.correction = world.bodies.position;
+    if (world.settings.resolution.restitution_speed == RestitutionSpeed::touching) {
+        for (Contact& contact : data.contacts) contact.gap = contact.distance;
+    }
     data.correction_counts.assign(world.corrections.size(), {});
     forBatches(data, world.executor, [&](std::uint32_t batch, int thread) {
         const auto t = static_cast<std::size_t>(thread);
@@ -81,12 +90,17 @@ void velocityStage(WorldState& world) {
     }
     std::swap(world.bodies.supports, data.supports);
     const bool exact = world.settings.integration.exact_flight;
-    if (exact) noteVelocities(world.bodies, world.executor, data.before);
+    const bool touching = world.settings.resolution.restitution_speed == RestitutionSpeed::touching;
+    if (exact || touching) noteVelocities(world.bodies, world.executor, data.before);
     advanceVelocities(world.bodies, acceleration, world.settings.gravity_damping, world.settings.timeStep(),
                       world.executor);
     applySprings(world.springs, world.bodies, world.settings.timeStep());
     quarantine(world);
     if (exact) noteForced(world.bodies, world.executor, data.before);
+    if (touching) {
+        noteTouching(world.bodies, world.settings.resolution.restitution_threshold, world.settings.timeStep(),
+                     data.before, data.contacts);
+    }
 }
 
 void resolveStage(WorldState& world) {
@@ -111,9 +125,11 @@ void resolveStage(WorldState& world) {
     if (remembers) world.memory.store(world.bodies, data.contacts, world.executor);
     finishJoints(world);
     quarantine(world);
+    measureIfAsked(world, Measured::resolution);
     if (world.settings.integration.exact_flight) {
         completeSmoothMotion(world.bodies, data.before, data.jointed, world.settings.timeStep(), world.executor);
     }
+    measureIfAsked(world, Measured::completion);
 }
 
 void sleepStage(WorldState& world) {
@@ -146,6 +162,7 @@ void stepWorld(WorldState& world) {
         wakeSpringEnds(world.springs, world.bodies);
         prepareJoints(world);
     });
+    measureIfAsked(world, Measured::begin);
     timed(statistics, Stage::positions, [&] {
         const JointFlight::Motion motion{world.settings.integration, world.settings.gravity_damping,
                                          world.gravity + world.global_acceleration, world.settings.timeStep(),
@@ -154,6 +171,7 @@ void stepWorld(WorldState& world) {
         advancePositions(world.bodies, world.settings.integration, world.settings.timeStep(), world.executor);
         world.joint_flight.finish(world.joints, world.data.joint_groups, world.bodies, motion);
     });
+    measureIfAsked(world, Measured::positions);
     timed(statistics, Stage::detection, [&] {
         detectContacts(world.bodies, world.materials, *world.broad_phase, world.settings.detection.contact_margin,
                        world.executor, world.data);
@@ -161,13 +179,16 @@ void stepWorld(WorldState& world) {
     timed(statistics, Stage::batches, [&] { buildBatchesStage(world); });
     if (checked) checkBatches(world);
     timed(statistics, Stage::correction, [&] { correctStage(world); });
+    measureIfAsked(world, Measured::correction);
     timed(statistics, Stage::velocities, [&] { velocityStage(world); });
+    measureIfAsked(world, Measured::forces);
     // Asked before a driven joint may break in this very step.
     const bool weighed = world.checks == Checks::on && !hasMotors(world);
     const double energy = weighed ? kineticEnergyOf(world.bodies) : 0;
     timed(statistics, Stage::resolution, [&] { resolveStage(world); });
     if (weighed) checkEnergy(world, energy);
     timed(statistics, Stage::sleeping, [&] { sleepStage(world); });
+    measureIfAsked(world, Measured::sleep);
     timed(statistics, Stage::output, [&] { outputStage(world); });
     if (checked) checkState(world);
     // A quotient, not a sum: after a million steps the time is still exact to one rounding.

@@ -1,7 +1,9 @@
 /// The part of World that reports what a step did and what the state amounts to.
+#include <algorithm>
 #include <bit>
 
 #include "cairn/world.h"
+#include "world/totals.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -22,6 +24,22 @@ void Statistics::add(const Statistics& next) {
     woken += next.woken;
     largest_overlap = std::max(largest_overlap, next.largest_overlap);
     mean_overlap = next.mean_overlap;
+    Diagnostics newer = next.diagnostics;
+    for (const DiagnosticsField& field : diagnosticsFields()) {
+        double& value = field.of(diagnostics);
+        const double other = field.of(newer);
+        switch (field.fold) {
+            case DiagnosticsField::Fold::sum:
+                value += other;
+                break;
+            case DiagnosticsField::Fold::newest:
+                value = other;
+                break;
+            case DiagnosticsField::Fold::largest:
+                value = std::max(value, other);
+                break;
+        }
+    }
 }
 
 namespace {
@@ -43,18 +61,6 @@ void feedAll(std::uint64_t& hash, const Vector& values) {
     for (Eigen::Index i = 0; i < values.size(); ++i) feed(hash, std::bit_cast<std::uint64_t>(values[i] + 0.0));
 }
 
-template <class Work>
-void forDynamic(const BodyStorage& bodies, const Work& work) {
-    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (bodies.kind[i] == BodyKind::dynamic) work(i);
-    }
-}
-
-/// Angular momentum about the centre of mass [N·m·s, W].
-Vec3 spin(const BodyStorage& b, BodyIndex i) {
-    return b.orientation[i] * b.inertia_B[i].cwiseProduct(b.orientation[i].conjugate() * b.w[i]);
-}
-
 }  // namespace
 
 std::vector<ContactInfo> World::contacts() const {
@@ -66,7 +72,8 @@ std::vector<ContactInfo> World::contacts() const {
         const BodyId a{c.a, data.generation[c.a]};
         const BodyId b{c.b, data.generation[c.b]};
         if (!contains(a) || !contains(b)) continue;
-        infos.push_back({a, b, c.point, c.normal, c.distance, c.impulse, data.batches.batch_of_contact[i]});
+        infos.push_back(
+            {a, b, c.point, c.normal, c.distance, c.impulse, c.angular_impulse, data.batches.batch_of_contact[i]});
     }
     return infos;
 }
@@ -125,32 +132,19 @@ BodyTrace World::trace(BodyId id) const {
 }
 
 double World::kineticEnergy() const {
-    const BodyStorage& b = state_->bodies;
-    double energy = 0;
-    forDynamic(b, [&](BodyIndex i) { energy += 0.5 * (b.mass[i] * b.v[i].squaredNorm() + b.w[i].dot(spin(b, i))); });
-    return energy;
+    return kineticEnergyOf(state_->bodies);
 }
 
 double World::potentialEnergy() const {
-    const BodyStorage& b = state_->bodies;
-    const Vec3 acceleration = state_->gravity + state_->global_acceleration;
-    double energy = 0;
-    forDynamic(b, [&](BodyIndex i) { energy -= b.mass[i] * acceleration.dot(b.position[i]); });
-    return energy;
+    return potentialEnergyOf(state_->bodies, state_->gravity + state_->global_acceleration);
 }
 
 Vec3 World::linearMomentum() const {
-    const BodyStorage& b = state_->bodies;
-    Vec3 momentum = Vec3::Zero();
-    forDynamic(b, [&](BodyIndex i) { momentum += b.mass[i] * b.v[i]; });
-    return momentum;
+    return linearMomentumOf(state_->bodies);
 }
 
 Vec3 World::angularMomentum() const {
-    const BodyStorage& b = state_->bodies;
-    Vec3 momentum = Vec3::Zero();
-    forDynamic(b, [&](BodyIndex i) { momentum += spin(b, i) + b.position[i].cross(b.mass[i] * b.v[i]); });
-    return momentum;
+    return angularMomentumOf(state_->bodies);
 }
 
 std::uint64_t World::stateHash() const {

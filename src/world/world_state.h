@@ -30,28 +30,47 @@ struct BrokenJoint {
     Vec3 impulse;  ///< on A in the step [N·s, W]
 };
 
+/// Energy and momentum of all bodies.
+struct StepTotals {
+    double kinetic = 0;                    ///< [J]
+    double potential = 0;                  ///< [J]
+    Vec3 momentum = Vec3::Zero();          ///< [N·s, W]
+    Vec3 angular_momentum = Vec3::Zero();  ///< about the origin [N·m·s, W]
+
+    double energy() const { return kinetic + potential; }
+};
+
+/// What the diagnostics of a step remember between its stages.
+struct MeasuredData {
+    StepTotals begin;     ///< of the step
+    StepTotals last;      ///< at the last point
+    std::vector<Vec3> v;  ///< [slots] at the last point [m/s, W]
+    std::vector<Vec3> w;  ///< [slots] at the last point [rad/s, W]
+};
+
 /// The arrays that one stage leaves to the next; nothing else travels between stages. Named with their producer.
 struct StepData {
     std::vector<Bounds> bounds;                         ///< detection: [slots] grown by the contact margin [m, W]
     std::vector<BodyPair> pairs;                        ///< detection: near pairs, sorted
     std::vector<std::vector<Contact>> thread_contacts;  ///< detection: [threads], joined into contacts
-    std::vector<Contact> contacts;            ///< detection, changed by correction and resolution: sorted by (a, b)
-    ContactsOfBodies contacts_of;             ///< batches: [slots] contact indices
-    Batches batches;                          ///< batches: groups in canonical order
-    BatchScratch batch_scratch;               ///< batches: kept memory
-    std::vector<std::uint32_t> schedule;      ///< batches: order of work, large ones first
-    std::size_t large_batches = 0;            ///< batches: how many of the schedule are large
-    VelocitiesBefore before;                  ///< velocities: [slots], with exact_flight only
-    JointGroups joint_groups;                 ///< events: joints connected by bodies that can move
-    std::vector<std::uint8_t> jointed;        ///< events: [slots] 1 = has a joint; empty without joints
-    std::vector<BodyPair> excluded;           ///< events: pairs that joints keep from touching, sorted
-    std::vector<JointBlock> joint_blocks;     ///< resolution: batch after batch, in it group after group
-    std::vector<std::uint32_t> joint_begin;   ///< resolution: [batches + 1] offsets into joint_blocks
-    std::vector<std::uint32_t> joint_cursor;  ///< resolution: kept memory
-    std::vector<BrokenJoint> broken;          ///< resolution: by slot
-    std::vector<std::int32_t> supports;       ///< velocities: [slots] contacts in the direction of gravity
+    std::vector<Contact> contacts;        ///< detection, changed by correction and resolution: sorted by (a, b)
+    ContactsOfBodies contacts_of;         ///< batches: [slots] contact indices
+    Batches batches;                      ///< batches: groups in canonical order
+    BatchScratch batch_scratch;           ///< batches: kept memory
+    std::vector<std::uint32_t> schedule;  ///< batches: order of work, large ones first
+    std::size_t large_batches = 0;        ///< batches: how many of the schedule are large
+    VelocitiesBefore before;              ///< velocities: [slots], with exact_flight or RestitutionSpeed::touching only
+    JointGroups joint_groups;             ///< events: joints connected by bodies that can move
+    std::vector<std::uint8_t> jointed;    ///< events: [slots] 1 = has a joint; empty without joints
+    std::vector<BodyPair> excluded;       ///< events: pairs that joints keep from touching, sorted
+    std::vector<JointBlock> joint_blocks;             ///< resolution: batch after batch, in it group after group
+    std::vector<std::uint32_t> joint_begin;           ///< resolution: [batches + 1] offsets into joint_blocks
+    std::vector<std::uint32_t> joint_cursor;          ///< resolution: kept memory
+    std::vector<BrokenJoint> broken;                  ///< resolution: by slot
+    std::vector<std::int32_t> supports;               ///< velocities: [slots] contacts in the direction of gravity
     std::vector<CorrectionCounts> correction_counts;  ///< correction: [threads]
     std::vector<ResolutionCounts> resolution_counts;  ///< resolution: [threads]
+    MeasuredData measured;                            ///< every stage: with the setting diagnostics only
     std::vector<std::uint32_t> generation;  ///< output: [slots] generations of the bodies that the contacts name
 };
 

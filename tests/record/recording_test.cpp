@@ -37,6 +37,33 @@ TEST(Recording, keepsSceneSettingsVersionAndMachine) {
     }
 }
 
+TEST(Recording, keepsDiagnosticsIfTheyAreAskedFor) {
+    const TemporaryFolder folder;
+    const Scene scene = smallScene();
+    Settings settings = settingsFor(scene);
+    settings.diagnostics.diagnostics = true;
+    RecordingWriter writer(folder / "a.h5", scene, settings);
+    const auto frameOf = [&](std::size_t index) {
+        Frame frame = madeUpFrame(index, scene.bodies.size());
+        double next = static_cast<double>(index) * 100 + 0.5;
+        for (const DiagnosticsField& field : diagnosticsFields()) {
+            field.of(frame.statistics.diagnostics) = std::sqrt(next++);
+        }
+        return frame;
+    };
+    for (std::size_t i = 0; i < 3; ++i) writer.append(frameOf(i));
+    writer.close();
+    const RecordingReader reader(folder / "a.h5");
+    ASSERT_EQ(reader.info().frames, 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        Diagnostics got = reader.frame(i).statistics.diagnostics;
+        Diagnostics expected = frameOf(i).statistics.diagnostics;
+        for (const DiagnosticsField& field : diagnosticsFields()) {
+            EXPECT_EQ(field.of(got), field.of(expected)) << field.name;
+        }
+    }
+}
+
 TEST(Recording, takesFramesInAnyOrderWhenRead) {
     const TemporaryFolder folder;
     recordFrames(folder / "a.h5", 5);

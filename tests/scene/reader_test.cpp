@@ -67,7 +67,7 @@ TEST(SceneReader, ReadsEveryMember) {
           {"time":0.5,"body":1,"impulse":[0,1,0]},{"time":0.5,"body":1,"force":[0,0,1]},
           {"time":0.5,"body":1,"torque":[0,0,2]},{"time":3,"body":1,"remove":true}],
         "materials":{"oak":{"density":800},"iron":{"density":7874}},
-        "contacts":{"oak/iron":{"static_friction":0.9},"default":{"restitution":0.5,"kinetic_friction":0.1}},
+        "contacts":{"oak/iron":{"static_friction":0.9},"default":{"restitution":0.5,"kinetic_friction":0.1,"rolling_friction":0.02,"spinning_friction":0.003}},
         "bodies":[{"shape":{"type":"capsule","radius":0.1,"length":0.4},"material":"oak","name":"a","mass":7,
             "position":[1,2,3],"orientation":[0,2,0,0],"linear_velocity":[4,5,6],"angular_velocity":[7,8,9]},
           {"shape":{"type":"box","size":[1,2,3]},"material":"iron","asleep":true},
@@ -99,6 +99,8 @@ TEST(SceneReader, ReadsEveryMember) {
     EXPECT_EQ(scene.pairs[0].second.restitution, 0.5) << "inherited from the default, which stands after it";
     EXPECT_EQ(scene.pairs[0].second.static_friction, 0.9);
     EXPECT_EQ(scene.pairs[0].second.kinetic_friction, 0.1);
+    EXPECT_EQ(scene.pairs[0].second.rolling_friction, 0.02);
+    EXPECT_EQ(scene.pairs[0].second.spinning_friction, 0.003);
     ASSERT_EQ(scene.bodies.size(), 3U);
     EXPECT_EQ(std::get<Capsule>(scene.bodies[0].shape).radius, 0.1);
     EXPECT_EQ(std::get<Capsule>(scene.bodies[0].shape).length, 0.4);
@@ -233,6 +235,8 @@ TEST(SceneReader, RefusesUnknownMaterialsAndBadPairs) {
         {contacts(R"("default":{"restitution":1.5})"), {"contacts.default.restitution is 1.5;", "0 and 1"}},
         {contacts(R"("default":{"restitution":-0.5})"), {"contacts.default.restitution is -0.5;"}},
         {contacts(R"("default":{"static_friction":-1})"), {"contacts.default.static_friction is -1;"}},
+        {contacts(R"("default":{"rolling_friction":-1})"), {"contacts.default.rolling_friction is -1;"}},
+        {contacts(R"("default":{"spinning_friction":-1})"), {"contacts.default.spinning_friction is -1;"}},
         {contacts(R"("oak/iron":{"static_friction":0.1,"kinetic_friction":0.15})"),
          {"contacts[\"oak/iron\"]", "kinetic_friction 0.15 above static_friction 0.1"}},
         {contacts(R"("oak/iron":{"static_friction":0.1})"), {"kinetic_friction 0.2", "default pair"}},

@@ -21,7 +21,11 @@ Scene fullScene() {
                     {0.3, GiveImpulse{1, {1e17, 0.1, 0}}}, {0.2, SetForce{1, {0, 0, 4}}},
                     {0.1, SetTorque{1, {0, 0, 5}}},        {9, RemoveBody{0}}};
     scene.materials = {{"zinc", 7140.5}, {"ash", 650}};
-    scene.default_pair = {.restitution = 1, .static_friction = 0.4, .kinetic_friction = 0.3};
+    scene.default_pair = {.restitution = 1,
+                          .static_friction = 0.4,
+                          .kinetic_friction = 0.3,
+                          .rolling_friction = 0.01,
+                          .spinning_friction = 0.002};
     scene.pairs = {{{"zinc", "zinc"}, {.restitution = 0, .static_friction = 0.4, .kinetic_friction = 0.1}},
                    {{"ash", "zinc"}, scene.default_pair}};
     SceneBody ball;
@@ -97,6 +101,9 @@ TEST(SceneWriter, IsReadBackBitByBit) {
     ASSERT_EQ(back.pairs.size(), 2U);
     EXPECT_EQ(back.pairs[0].second.kinetic_friction, 0.1);
     EXPECT_EQ(back.pairs[0].second.restitution, 0);
+    EXPECT_EQ(back.default_pair.rolling_friction, 0.01);
+    EXPECT_EQ(back.pairs[0].second.rolling_friction, 0);
+    EXPECT_EQ(back.pairs[1].second.spinning_friction, 0.002);
     EXPECT_EQ(back.pairs[1].second.kinetic_friction, 0.3);
     ASSERT_EQ(back.events.size(), scene.events.size());
     for (std::size_t i = 0; i < scene.events.size(); ++i) {

@@ -13,5 +13,8 @@ extern const Case bouncing, two_body_impact, oblique_impact, cue_ball, cradle;
 extern const Case towers, walls, mass_ratios, tipping, overhang;
 
 extern const Case gas, haff, dominoes_wave;
+extern const Case cradle_swing, arch, seesaw, catapult;
+extern const Case packing, silo, hopper, repose;
+extern const Case cube_toss;
 
 }  // namespace cairn::validation

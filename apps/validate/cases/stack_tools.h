@@ -12,13 +12,14 @@
 
 namespace cairn::validation {
 
-/// A resolver that claims to hold stacks.
+/// A resolver by its name.
 struct Resolver {
     ResolutionKind kind;
     const char* name;
 };
-inline constexpr std::array<Resolver, 2> resolvers = {
-    {{ResolutionKind::impulse_queue, "impulse_queue"}, {ResolutionKind::accelerated_sweeps, "accelerated_sweeps"}}};
+inline constexpr std::array<Resolver, 3> resolvers = {{{ResolutionKind::impulse_queue, "impulse_queue"},
+                                                       {ResolutionKind::sweep, "sweep"},
+                                                       {ResolutionKind::accelerated_sweeps, "accelerated_sweeps"}}};
 
 /// How a stack fared.
 struct Standing {

@@ -1,0 +1,117 @@
+/// @file Many grains in a container.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "validate/case.h"
+#include "validate/random.h"
+#include "validate/world_tools.h"
+
+namespace cairn::validation {
+
+/// Grains have this diameter, or edge [m], and this mass [kg].
+inline constexpr double grain = 0.1;
+inline constexpr double grain_mass = 1;
+
+/// The performance preset with small overlaps: grains are a hundred times smaller than what they fill.
+inline Settings granularSettings(double rate = 480) {
+    Settings settings = Settings::preset(Preset::performance, rate, g);
+    settings.correction.penetration_threshold = 2e-4;
+    settings.sleep.sleeping = false;
+    settings.gravity_damping.damping = 0;
+    return settings;
+}
+
+/// A world with grains of one material and walls of another.
+struct Grains {
+    World world;
+    MaterialId wall;
+    std::vector<BodyId> ids;
+    Random random{7};
+
+    Grains(const Settings& settings, const PairProperties& between, const PairProperties& at_walls)
+        : world(makeWorld(settings, Vec3(0, 0, -g), between)),
+          wall(world.addMaterial({.name = "wall", .density = 1000})) {
+        world.setPairProperties(MaterialId{0}, wall, at_walls);
+    }
+
+    BodyId addWall(const Vec3& normal, double offset) {
+        BodyDescription plane;
+        plane.shape = HalfSpace{.normal = normal, .offset = offset};
+        return addFixed(plane);
+    }
+    /// A fixed box between two corners.
+    BodyId addBlock(const Vec3& lower, const Vec3& upper) {
+        BodyDescription block;
+        block.shape = Box{upper - lower};
+        block.pose.position = (lower + upper) / 2;
+        return addFixed(block);
+    }
+    /// Four upright walls about the z axis. @param width between them [m]
+    void addShaft(double width) {
+        for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)}) {
+            addWall(normal, -width / 2);
+        }
+    }
+    /// Grains in loose layers, a little displaced and turned. @param width of the square that they fill [m]
+    void rain(const Shape& shape, int count, double width, double bottom, double spacing = 1.25 * grain) {
+        const int across = std::max(1, static_cast<int>(width / spacing));
+        const double pitch = width / across;
+        for (int i = 0; i < count; ++i) {
+            const Vec3 cell(i % across, i / across % across, i / (across * across));
+            Vec3 position((cell.x() + 0.5) * pitch - width / 2, (cell.y() + 0.5) * pitch - width / 2,
+                          bottom + (cell.z() + 0.5) * spacing);
+            const double play = 0.4 * (std::min(pitch, spacing) - grain);
+            for (int axis = 0; axis < 3; ++axis) position[axis] += random.uniform(-play, play);
+            BodyDescription description = body(shape, grain_mass, position);
+            const Vec3 axis(random.normal(), random.normal(), random.normal());
+            if (!std::holds_alternative<Sphere>(shape)) {
+                description.pose.orientation = Quat(Eigen::AngleAxisd(random.uniform(0, 0.3), axis.normalized()));
+            }
+            description.linear_velocity = Vec3(random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), 0);
+            ids.push_back(world.addBody(description));
+        }
+    }
+    /// Steps until the grains hardly move. @param longest [s] of simulated time
+    void settle(double longest, const Plan& plan) {
+        const double end = world.time() + longest;
+        const double weight = static_cast<double>(ids.size()) * grain_mass;
+        while (world.time() < end) {
+            plan.alive();
+            world.step();
+            const bool slow = world.kineticEnergy() < weight * 0.5 * 1e-3 * 1e-3;
+            if (slow && world.time() > end - 0.8 * longest) return;
+        }
+    }
+    double highest() const {
+        double top = 0;
+        for (const BodyId id : ids) top = std::max(top, world.pose(id).position.z());
+        return top;
+    }
+    /// Impulse per time that a body gave upwards in the last step [N].
+    double liftedBy(BodyId id) const {
+        double impulse = 0;
+        for (const ContactInfo& c : world.contacts()) {
+            if (c.a == id) impulse -= c.impulse.z();
+            if (c.b == id) impulse += c.impulse.z();
+        }
+        return impulse * world.settings().steps_per_second;
+    }
+
+  private:
+    BodyId addFixed(BodyDescription& description) {
+        description.fixed = true;
+        description.material = wall;
+        return world.addBody(description);
+    }
+};
+
+inline PairProperties grainLaw(double friction, double rolling = 0) {
+    PairProperties law = contactLaw(0.2, friction);
+    law.rolling_friction = rolling;
+    return law;
+}
+
+}  // namespace cairn::validation

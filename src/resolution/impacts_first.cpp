@@ -1,0 +1,99 @@
+#include "resolution/impacts_first.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "resolution/algorithms.h"
+#include "resolution/contact_frame.h"
+
+namespace cairn {
+
+namespace {
+
+/// Resolutions of impacts one after the other, as a multiple of the contacts; elastic chains need many.
+constexpr double sequential_limit = 1000;
+constexpr std::int64_t simultaneous_sweeps = 1000;
+
+/// Which rule the settings ask for. Energetic restitution is a law of single impacts.
+Impacts wantedOf(const ResolutionSettings& settings, Impacts own) {
+    if (settings.impacts != Impacts::of_resolution) return settings.impacts;
+    return settings.restitution_law == RestitutionLaw::energetic ? Impacts::sequential : own;
+}
+
+/// ϑA − ϑB along the normal [m/s].
+double closingOf(const Contact& contact, const BodyState& bodies) {
+    const auto at = [&](BodyIndex i) -> Vec3 {
+        return bodies.v[i] + bodies.w[i].cross(contact.point - bodies.position[i]);
+    };
+    return contact.normal.dot(at(contact.a) - at(contact.b));
+}
+
+class ImpactsFirst final : public Resolution {
+  public:
+    ImpactsFirst(std::unique_ptr<Resolution> resolution, Impacts own) : resolution_(std::move(resolution)), own_(own) {}
+
+    ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
+                             const ResolutionSettings& settings) override {
+        const Impacts wanted = wantedOf(settings, own_);
+        if (wanted == own_ || !hasImpact(batch, contacts, bodies, settings)) {
+            return resolution_->resolve(batch, contacts, bodies, settings);
+        }
+        const ResolutionCounts first = resolveImpacts(wanted, batch, contacts, bodies, settings);
+        noteJoints(batch);
+        ResolutionSettings rest = settings;
+        rest.restitution_threshold = std::numeric_limits<double>::infinity();
+        ResolutionCounts counts = resolution_->resolve(batch, contacts, bodies, rest);
+        counts.global_iterations += first.global_iterations;
+        addJoints(batch);
+        return counts;
+    }
+
+  private:
+    static bool hasImpact(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies,
+                          const ResolutionSettings& settings) {
+        return std::ranges::any_of(batch.contacts, [&](std::uint32_t i) {
+            const Contact& contact = contacts[i];
+            return contact.restitution > 0 && closingOf(contact, bodies) < -settings.restitution_threshold;
+        });
+    }
+
+    ResolutionCounts resolveImpacts(Impacts wanted, const BatchView& batch, std::span<Contact> contacts,
+                                    const BodyState& bodies, const ResolutionSettings& settings) {
+        ResolutionSettings impacts = settings;
+        if (wanted == Impacts::sequential) {
+            if (!sequential_) sequential_ = makeImpulseQueueResolution();
+            impacts.resolution_threshold = std::max(settings.resolution_threshold, settings.restitution_threshold);
+            impacts.global_iterations = sequential_limit;
+            impacts.shock_propagation = false;
+            return sequential_->resolve(batch, contacts, bodies, impacts);
+        }
+        if (!simultaneous_) simultaneous_ = makeAcceleratedSweepsResolution();
+        impacts.sweep_limit = std::max(settings.sweep_limit, simultaneous_sweeps);
+        return simultaneous_->resolve(batch, contacts, bodies, impacts);
+    }
+
+    /// A resolution writes the impulses of joints, it does not add them.
+    void noteJoints(const BatchView& batch) { joints_.assign(batch.joints.begin(), batch.joints.end()); }
+    void addJoints(const BatchView& batch) const {
+        for (std::size_t i = 0; i < joints_.size(); ++i) {
+            for (std::uint32_t row = 0; row < joints_[i].size; ++row) {
+                batch.joints[i].impulse[row] += joints_[i].impulse[row];
+            }
+        }
+    }
+
+    std::unique_ptr<Resolution> resolution_;
+    Impacts own_;
+    std::unique_ptr<Resolution> sequential_;
+    std::unique_ptr<Resolution> simultaneous_;
+    std::vector<JointBlock> joints_;  ///< after the impacts
+};
+
+}  // namespace
+
+std::unique_ptr<Resolution> makeImpactsFirst(std::unique_ptr<Resolution> resolution, Impacts own) {
+    return std::make_unique<ImpactsFirst>(std::move(resolution), own);
+}
+
+}  // namespace cairn

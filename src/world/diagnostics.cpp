@@ -1,0 +1,230 @@
+#include "world/diagnostics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "integration/integration.h"
+#include "resolution/contact_law.h"
+#include "sleeping/sleeping.h"
+#include "world/totals.h"
+
+namespace cairn {
+
+namespace {
+
+using Fold = DiagnosticsField::Fold;
+
+template <auto Member>
+double& scalar(Diagnostics& d) {
+    return d.*Member;
+}
+template <auto Member, int Axis>
+double& component(Diagnostics& d) {
+    return (d.*Member)[Axis];
+}
+
+using D = Diagnostics;
+constexpr std::array<DiagnosticsField, 33> fields = {{
+    {"momentum_x", "N·s", Fold::newest, component<&D::momentum, 0>},
+    {"momentum_y", "N·s", Fold::newest, component<&D::momentum, 1>},
+    {"momentum_z", "N·s", Fold::newest, component<&D::momentum, 2>},
+    {"angular_momentum_x", "N·m·s", Fold::newest, component<&D::angular_momentum, 0>},
+    {"angular_momentum_y", "N·m·s", Fold::newest, component<&D::angular_momentum, 1>},
+    {"angular_momentum_z", "N·m·s", Fold::newest, component<&D::angular_momentum, 2>},
+    {"fixed_impulse_x", "N·s", Fold::sum, component<&D::fixed_impulse, 0>},
+    {"fixed_impulse_y", "N·s", Fold::sum, component<&D::fixed_impulse, 1>},
+    {"fixed_impulse_z", "N·s", Fold::sum, component<&D::fixed_impulse, 2>},
+    {"fixed_angular_impulse_x", "N·m·s", Fold::sum, component<&D::fixed_angular_impulse, 0>},
+    {"fixed_angular_impulse_y", "N·m·s", Fold::sum, component<&D::fixed_angular_impulse, 1>},
+    {"fixed_angular_impulse_z", "N·m·s", Fold::sum, component<&D::fixed_angular_impulse, 2>},
+    {"force_impulse_x", "N·s", Fold::sum, component<&D::force_impulse, 0>},
+    {"force_impulse_y", "N·s", Fold::sum, component<&D::force_impulse, 1>},
+    {"force_impulse_z", "N·s", Fold::sum, component<&D::force_impulse, 2>},
+    {"force_angular_impulse_x", "N·m·s", Fold::sum, component<&D::force_angular_impulse, 0>},
+    {"force_angular_impulse_y", "N·m·s", Fold::sum, component<&D::force_angular_impulse, 1>},
+    {"force_angular_impulse_z", "N·m·s", Fold::sum, component<&D::force_angular_impulse, 2>},
+    {"momentum_error", "N·s", Fold::largest, scalar<&D::momentum_error>},
+    {"angular_momentum_error", "N·m·s", Fold::largest, scalar<&D::angular_momentum_error>},
+    {"energy", "J", Fold::newest, scalar<&D::energy>},
+    {"energy_flight", "J", Fold::sum, scalar<&D::energy_flight>},
+    {"energy_forces", "J", Fold::sum, scalar<&D::energy_forces>},
+    {"energy_damping", "J", Fold::sum, scalar<&D::energy_damping>},
+    {"energy_friction", "J", Fold::sum, scalar<&D::energy_friction>},
+    {"energy_restitution", "J", Fold::sum, scalar<&D::energy_restitution>},
+    {"energy_joints", "J", Fold::sum, scalar<&D::energy_joints>},
+    {"energy_correction", "J", Fold::sum, scalar<&D::energy_correction>},
+    {"energy_sleep", "J", Fold::sum, scalar<&D::energy_sleep>},
+    {"energy_error", "J", Fold::sum, scalar<&D::energy_error>},
+    {"signorini", "J", Fold::largest, scalar<&D::signorini>},
+    {"de_saxce", "J", Fold::largest, scalar<&D::de_saxce>},
+    {"dissipation", "J", Fold::largest, scalar<&D::dissipation>},
+}};
+
+Vec3 accelerationOf(const WorldState& world) {
+    return world.gravity + world.global_acceleration;
+}
+
+StepTotals totalsOf(const WorldState& world) {
+    return {kineticEnergyOf(world.bodies), potentialEnergyOf(world.bodies, accelerationOf(world)),
+            linearMomentumOf(world.bodies), angularMomentumOf(world.bodies)};
+}
+
+/// Splits the change of the kinetic energy among gravity, its damping and all other forces. A force's work is its
+/// impulse times the mean of the velocities before and after.
+void accountForces(WorldState& world, double change) {
+    const BodyStorage& b = world.bodies;
+    const MeasuredData& data = world.data.measured;
+    Diagnostics& d = world.statistics.diagnostics;
+    const GravityDampingSettings& damping = world.settings.gravity_damping;
+    const Vec3 step = accelerationOf(world) * world.settings.timeStep();
+    double gravity = 0;
+    double damped = 0;
+    for (BodyIndex i = 0; i < b.slots(); ++i) {
+        if (b.kind[i] != BodyKind::dynamic || b.asleep[i] != 0) continue;
+        const double work = b.mass[i] * step.dot(0.5 * (data.v[i] + b.v[i]));
+        gravity += work;
+        const bool slow =
+            squaredMotion(data.v[i], data.w[i], b.r_max[i]) < damping.damping_threshold * damping.damping_threshold;
+        if (slow) damped -= damping.damping * work;
+    }
+    d.energy_flight += gravity;
+    d.energy_damping += damped;
+    d.energy_forces += change - gravity - damped;
+}
+
+/// What a contact did, in its coordinates.
+struct ContactWork {
+    Vec3 impulse;    ///< on A [N·s]
+    Vec3 before;     ///< ϑA − ϑB before the resolution [m/s]
+    Vec3 after;      ///< and after it [m/s]
+    double turning;  ///< work of its angular impulse [J]
+};
+
+ContactWork workOf(const WorldState& world, const Contact& c) {
+    const BodyStorage& b = world.bodies;
+    const MeasuredData& data = world.data.measured;
+    const Mat3 to_contact = contactBasis(c.normal).transpose();
+    const auto at = [&](const std::vector<Vec3>& v, const std::vector<Vec3>& w) -> Vec3 {
+        const Vec3 r_a = c.point - b.position[c.a];
+        const Vec3 r_b = c.point - b.position[c.b];
+        return to_contact * (v[c.a] + w[c.a].cross(r_a) - v[c.b] - w[c.b].cross(r_b));
+    };
+    const Vec3 turning = 0.5 * (data.w[c.a] + b.w[c.a] - data.w[c.b] - b.w[c.b]);
+    return {to_contact * c.impulse, at(data.v, data.w), at(b.v, b.w), c.angular_impulse.dot(turning)};
+}
+
+void addResiduals(const ContactWork& work, const Contact& c, const ResolutionSettings& settings, Diagnostics& d) {
+    const Vec3& lambda = work.impulse;
+    const double wanted = ContactLaw::separatingSpeed(settings, c, work.before[0]);
+    const double normal = work.after[0] - wanted;
+    const double slip = std::sqrt(work.after[1] * work.after[1] + work.after[2] * work.after[2]);
+    const double tangential = std::sqrt(lambda[1] * lambda[1] + lambda[2] * lambda[2]);
+    const double mu = c.kinetic_friction;
+    const double sliding = lambda[1] * work.after[1] + lambda[2] * work.after[2];
+    d.signorini = std::max(d.signorini, std::abs(lambda[0] * normal));
+    d.de_saxce = std::max(d.de_saxce, std::abs(lambda[0] * (normal + mu * slip) + sliding));
+    d.dissipation = std::max(d.dissipation, std::abs(mu * std::abs(lambda[0]) - tangential) * slip);
+}
+
+void accountContacts(WorldState& world) {
+    const BodyStorage& b = world.bodies;
+    Diagnostics& d = world.statistics.diagnostics;
+    for (const Contact& c : world.data.contacts) {
+        if (c.impulse.isZero(0) && c.angular_impulse.isZero(0)) continue;
+        const ContactWork work = workOf(world, c);
+        const Vec3 mean = 0.5 * (work.before + work.after);
+        d.energy_restitution += work.impulse[0] * mean[0];
+        d.energy_friction += work.impulse[1] * mean[1] + work.impulse[2] * mean[2] + work.turning;
+        addResiduals(work, c, world.settings.resolution, d);
+        const bool a_moves = b.kind[c.a] == BodyKind::dynamic;
+        if (a_moves == (b.kind[c.b] == BodyKind::dynamic)) continue;
+        const double sign = a_moves ? 1 : -1;
+        d.fixed_impulse += sign * c.impulse;
+        d.fixed_angular_impulse += sign * (c.point.cross(c.impulse) + c.angular_impulse);
+    }
+}
+
+/// @return whether there are any
+bool accountJoints(WorldState& world) {
+    const BodyStorage& b = world.bodies;
+    Diagnostics& d = world.statistics.diagnostics;
+    bool any = false;
+    for (const Joint& joint : world.joints) {
+        if (!isActive(joint, b.kind)) continue;
+        any = true;
+        const bool a_moves = isMovable(b.kind, joint.a);
+        if (a_moves == isMovable(b.kind, joint.b)) continue;
+        const double sign = a_moves ? 1 : -1;
+        const Vec3 anchor = b.position[joint.a] + b.orientation[joint.a] * joint.anchor_a;
+        d.fixed_impulse += sign * joint.impulse;
+        d.fixed_angular_impulse += sign * (anchor.cross(joint.impulse) + joint.angular_impulse);
+    }
+    return any || !world.data.broken.empty();
+}
+
+void accountResolution(WorldState& world, double change) {
+    Diagnostics& d = world.statistics.diagnostics;
+    accountContacts(world);
+    if (accountJoints(world)) d.energy_joints = change - d.energy_friction - d.energy_restitution;
+}
+
+void finish(WorldState& world, const StepTotals& now) {
+    Diagnostics& d = world.statistics.diagnostics;
+    const StepTotals& begin = world.data.measured.begin;
+    d.momentum = now.momentum;
+    d.angular_momentum = now.angular_momentum;
+    d.momentum_error = (now.momentum - begin.momentum - d.fixed_impulse - d.force_impulse).norm();
+    d.angular_momentum_error =
+        (now.angular_momentum - begin.angular_momentum - d.fixed_angular_impulse - d.force_angular_impulse).norm();
+    d.energy = now.energy();
+    const double explained = d.energy_flight + d.energy_forces + d.energy_damping + d.energy_friction +
+                             d.energy_restitution + d.energy_joints + d.energy_correction + d.energy_sleep;
+    d.energy_error = now.energy() - begin.energy() - explained;
+}
+
+}  // namespace
+
+std::span<const DiagnosticsField> diagnosticsFields() {
+    return fields;
+}
+
+void measure(WorldState& world, Measured point) {
+    Diagnostics& d = world.statistics.diagnostics;
+    MeasuredData& data = world.data.measured;
+    const StepTotals now = totalsOf(world);
+    const StepTotals& last = data.last;
+    switch (point) {
+        case Measured::begin:
+            data.begin = now;
+            break;
+        case Measured::positions:
+            d.energy_flight += now.energy() - last.energy();
+            break;
+        case Measured::correction:
+            d.energy_correction = now.energy() - last.energy();
+            break;
+        case Measured::forces:
+            accountForces(world, now.kinetic - last.kinetic);
+            d.force_impulse = now.momentum - last.momentum;
+            d.force_angular_impulse = now.angular_momentum - last.angular_momentum;
+            break;
+        case Measured::resolution:
+            accountResolution(world, now.kinetic - last.kinetic);
+            break;
+        case Measured::completion:
+            // The second half of the motion under the forces.
+            d.energy_flight += now.energy() - last.energy();
+            d.force_angular_impulse += now.angular_momentum - last.angular_momentum;
+            break;
+        case Measured::sleep:
+            d.energy_sleep = now.energy() - last.energy();
+            finish(world, now);
+            break;
+    }
+    data.last = now;
+    data.v = world.bodies.v;
+    data.w = world.bodies.w;
+}
+
+}  // namespace cairn
