@@ -9,6 +9,7 @@
 #include "bench_thesis/machine.h"
 #include "bench_thesis/store.h"
 #include "cairn/version.h"
+#include "markdown.h"
 #include "page.h"
 
 namespace cairn::validation {
@@ -87,6 +88,7 @@ void write(const ValidateOptions& options, ValidateOutcome& outcome) {
     if (error) throw IoError(fmt::format("{}: cannot be made: {}", options.out.string(), error.message()));
     outcome.json = options.out / "validation.json";
     thesis::writeWhole(outcome.json, outcome.report.dump(1) + "\n");
+    thesis::writeWhole(options.out / "validation.md", toMarkdown(outcome.report));
     if (const auto page = makePage(outcome.report)) {
         outcome.page = options.out / "index.html";
         thesis::writeWhole(outcome.page, *page);

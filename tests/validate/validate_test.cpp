@@ -14,6 +14,7 @@ namespace {
 const std::vector<std::string> required = {
     "parabola",      "tumbling-box", "dzhanibekov",    "symmetric-top", "incline-slide", "static-over-kinetic",
     "slide-to-roll", "rolling-down", "oblique-impact", "cradle",        "tipping",       "overhang",
+    "seesaw",        "catapult",     "cube-toss",
 };
 
 class RequiredCase : public testing::TestWithParam<std::string> {};

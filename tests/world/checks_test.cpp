@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "world/totals.h"
 #include "world/world_state.h"
 
 namespace cairn {

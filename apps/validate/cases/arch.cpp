@@ -15,7 +15,7 @@ constexpr double radius = 1;   ///< of the middle line [m]
 constexpr double depth = 0.5;  ///< [m]
 
 /// A voussoir between two angles from the right springing.
-Hull voussoir(double begin, double end, double thickness) {
+ConvexHull voussoir(double begin, double end, double thickness) {
     std::vector<Vec3> points;
     for (const double angle : {begin, end}) {
         for (const double r : {radius - thickness / 2, radius + thickness / 2}) {
@@ -24,7 +24,7 @@ Hull voussoir(double begin, double end, double thickness) {
             }
         }
     }
-    return Hull(points);
+    return ConvexHull(points);
 }
 
 /// How far the highest voussoir sank [m].

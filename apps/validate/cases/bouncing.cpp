@@ -74,7 +74,8 @@ void measure(Result& result, const Plan& plan, double restitution) {
         const std::string setup = timeStepText(rate);
         result.atMost(fmt::format("heights of ten bounces, worst relative error, e = {}", restitution), "", worst, 1e-3,
                       setup);
-        result.relative(fmt::format("time until it rests, e = {}", restitution), "s", total, found.time, 0.01, setup);
+        result.relative(fmt::format("time until it rests, e = {}", restitution), "s", total, found.time, 0.01, setup,
+                        "a bounce begins at the end of the time step in which the ball arrives");
         if (rate < 960) {
             for (Quantity& q : std::span(result.quantities).last(2)) q.rule = Rule::shown;
         }

@@ -1,0 +1,70 @@
+#include "markdown.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace cairn::validation {
+
+namespace {
+
+std::string number(const Json& value) {
+    return value.is_null() ? "–" : fmt::format("{:.6g}", value.get<double>());
+}
+
+std::string limitOf(const Json& q) {
+    const std::string rule = q.at("rule");
+    if (rule == "relative")
+        return fmt::format("{} ± {:.3g} %", number(q.at("expected")), 100 * q.at("allowed").get<double>());
+    if (rule == "absolute") return fmt::format("{} ± {}", number(q.at("expected")), number(q.at("allowed")));
+    if (rule == "shown") return q.at("expected").is_null() ? "–" : number(q.at("expected"));
+    return fmt::format("{} {}", rule, number(q.at("allowed")));
+}
+
+std::string rowOf(const Json& q) {
+    const bool judged = !q.at("passed").is_null();
+    const std::string verdict = !judged ? "shown" : q.at("passed").get<bool>() ? "yes" : "**no**";
+    const std::string unit = q.at("unit");
+    const std::string setup = q.at("setup");
+    return fmt::format("| {}{} | {} | {} | {} | {} | {} |\n", q.at("what").get<std::string>(),
+                       unit.empty() ? "" : " [" + unit + "]", setup, limitOf(q), number(q.at("measured")), verdict,
+                       q.at("note").get<std::string>());
+}
+
+/// Everything that is judged; of what is only shown, what has a meaning of its own.
+bool isListed(const Json& q) {
+    return !q.at("passed").is_null() || q.at("expected").is_null();
+}
+
+std::string tableOf(const Json& c) {
+    std::string text = fmt::format("### {} (`{}`)\n\n{} Source: {}.\n\n", c.at("title").get<std::string>(),
+                                   c.at("name").get<std::string>(), c.at("setup").get<std::string>(),
+                                   c.at("source").get<std::string>());
+    text += "| quantity | conditions | expected | measured | met | remark |\n|---|---|---|---|---|---|\n";
+    for (const Json& q : c.at("quantities")) {
+        if (isListed(q)) text += rowOf(q);
+    }
+    return text + "\n";
+}
+
+}  // namespace
+
+std::string toMarkdown(const Json& report) {
+    std::string overview = "| case | group | targets met | seconds |\n|---|---|---|---|\n";
+    std::string tables;
+    for (const Json& c : report.at("cases")) {
+        int judged = 0;
+        int met = 0;
+        for (const Json& q : c.at("quantities")) {
+            if (q.at("passed").is_null()) continue;
+            ++judged;
+            if (q.at("passed").get<bool>()) ++met;
+        }
+        overview += fmt::format("| `{}` | {} | {} of {} | {:.0f} |\n", c.at("name").get<std::string>(),
+                                c.at("group").get<std::string>(), met, judged, c.at("seconds").get<double>());
+        tables += tableOf(c);
+    }
+    return overview + "\n" + tables;
+}
+
+}  // namespace cairn::validation
