@@ -35,6 +35,8 @@ Program::Program(const std::filesystem::path& folder, const std::vector<std::str
     id_ = fork();
     if (id_ < 0) throw std::runtime_error("no process can be made");
     if (id_ == 0) {
+        // The tests may have been started with nohup, which a program inherits.
+        signal(SIGHUP, SIG_DFL);
         redirect(STDOUT_FILENO, out_);
         redirect(STDERR_FILENO, error_);
         if (chdir(folder.c_str()) == 0) execv(pointers[0], pointers.data());

@@ -248,7 +248,7 @@ std::size_t framesSoFar(const std::filesystem::path& recording) {
 }
 
 TEST_F(CommandLine, anInterruptEndsTheRunAfterItsStepAndKeepsTheRecording) {
-    for (const int signal : {SIGINT, SIGTERM}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         Program program(folder(), {"run", "tower:3", "--threads", "1", "--duration", "1e6", "--record", "a.h5"});
         while (framesSoFar(file("a.h5")) < 3) std::this_thread::sleep_for(std::chrono::milliseconds(5));
         program.send(signal);
