@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "cases.h"
 #include "granular_tools.h"
@@ -11,31 +12,39 @@ namespace cairn::validation {
 
 namespace {
 
-/// Angle of the flank of a heap that grains poured at one place make [°]: that of a cone with the heap's mean height
-/// and mean distance from its axis. Of a cone of height h and radius r, the mean height of the volume is h/4 and the
-/// mean distance r/2.
+constexpr double tray = 10 * grain;  ///< inner width [m]
+constexpr double rim = 1 * grain;    ///< height [m]
+
+/// Angle of the flanks of the heap that stays on a square tray with a rim when more is poured onto it than it holds
+/// [°]: that of a pyramid on the rim with the volume of what stays above it.
 double heap(double friction, double rolling, const Plan& plan) {
     Grains grains(granularSettings(), grainLaw(friction, rolling), grainLaw(friction, rolling));
-    grains.addWall(Vec3::UnitZ(), 0);
-    const int count = plan.isQuick() ? 120 : 400;
-    // A narrow column, layer by layer: what falls lands on the top of the heap.
-    grains.rain(Sphere{grain / 2}, count, 3.2 * grain, 0.05, 1.05 * grain);
-    grains.settle(plan.isQuick() ? 3 : 6, plan);
-    Vec3 centre = Vec3::Zero();
-    for (const BodyId id : grains.ids) centre += grains.world.pose(id).position / static_cast<double>(count);
-    double height = 0;
-    double distance = 0;
-    double members = 0;
-    for (const BodyId id : grains.ids) {
-        const Vec3 p = grains.world.pose(id).position;
-        const double from_axis = std::hypot(p.x() - centre.x(), p.y() - centre.y());
-        // What rolled away alone is no part of the heap.
-        if (from_axis > 12 * grain) continue;
-        height += p.z() - grain / 2;
-        distance += from_axis;
-        ++members;
+    const double half = tray / 2;
+    const double outer = half + 0.2 * grain;
+    grains.addBlock(Vec3(-outer, -outer, -1), Vec3(outer, outer, 0));
+    grains.addBlock(Vec3(-outer, -outer, 0), Vec3(outer, -half, rim));
+    grains.addBlock(Vec3(-outer, half, 0), Vec3(outer, outer, rim));
+    grains.addBlock(Vec3(-outer, -half, 0), Vec3(-half, half, rim));
+    grains.addBlock(Vec3(half, -half, 0), Vec3(outer, half, rim));
+    const int count = plan.isQuick() ? 250 : 450;
+    grains.rain(Sphere{grain / 2}, count, 5.2 * grain, 0.05, 1.05 * grain);
+    const double end = plan.isQuick() ? 3 : 8;
+    while (grains.world.time() < end) {
+        plan.alive();
+        for (int i = 0; i < 48; ++i) grains.world.step();
+        std::erase_if(grains.ids, [&](BodyId id) {
+            if (grains.world.pose(id).position.z() > -2) return false;
+            grains.world.removeBody(id);
+            return true;
+        });
     }
-    return std::atan(4 * height / members / (2 * distance / members)) / degree;
+    double above = 0;
+    for (const BodyId id : grains.ids) {
+        if (grains.world.pose(id).position.z() > rim) ++above;
+    }
+    const double volume = above * std::numbers::pi / 6 * grain * grain * grain / 0.58;
+    const double height = 3 * volume / (tray * tray);
+    return std::atan(2 * height / tray) / degree;
 }
 
 Result run(const Plan& plan) {
@@ -63,12 +72,13 @@ Result run(const Plan& plan) {
 
 }  // namespace
 
-const Case repose{"repose",
-                  "Granular",
-                  "Heaps are the steeper the more their grains resist sliding and rolling",
-                  "the angle rises with µ and with rolling friction",
-                  "A column of 400 spheres of 10 cm collapses onto a plane of the same roughness; the angle is that of "
-                  "the cone with the same mean height and mean distance from the axis.",
-                  run};
+const Case repose{
+    "repose",
+    "Granular",
+    "Heaps are the steeper the more their grains resist sliding and rolling",
+    "the angle rises with µ and with rolling friction",
+    "450 spheres of 10 cm poured onto a tray of 10 × 10 diameters with a rim of one; the angle is that of a "
+    "pyramid with the volume of the grains above the rim at a solid fraction of 0.58.",
+    run};
 
 }  // namespace cairn::validation
