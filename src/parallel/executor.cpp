@@ -23,7 +23,7 @@ namespace {
 /// Runs a function once on each of several threads.
 template <class Work>
 void onThreads(int threads, const Work& work) {
-#pragma omp parallel num_threads(threads)
+#pragma omp parallel num_threads(threads) default(none) shared(threads, work)
     {
         // Fewer threads than asked for may be given; the rest of the shares is then done by those there are.
         for (int t = omp_get_thread_num(); t < threads; t += omp_get_num_threads()) work(t);

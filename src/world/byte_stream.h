@@ -35,13 +35,14 @@ class ByteWriter {
 
     template <PlainBytes T>
     void put(const T& value) {
-        std::memcpy(grow(sizeof(T)), &value, sizeof(T));
+        std::memcpy(grow(sizeof(T)), static_cast<const void*>(&value), sizeof(T));
     }
     /// The count, then the elements.
     template <PlainBytes T>
     void putArray(std::span<const T> values) {
         put(std::uint64_t{values.size()});
-        if (!values.empty()) std::memcpy(grow(values.size_bytes()), values.data(), values.size_bytes());
+        if (!values.empty())
+            std::memcpy(grow(values.size_bytes()), static_cast<const void*>(values.data()), values.size_bytes());
     }
     void putText(std::string_view text) { putArray(std::span<const char>(text)); }
     /// Writes the head: kind, version, length and checksums. Nothing may be put afterwards.
