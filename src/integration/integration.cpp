@@ -1,5 +1,7 @@
 #include "integration/integration.h"
 
+#include <cmath>
+
 #include "math/rotation.h"
 #include "sleeping/sleeping.h"
 
@@ -148,8 +150,24 @@ void noteForced(const BodyStorage& bodies, const Executor& executor, VelocitiesB
     });
 }
 
+namespace {
+
+/// Height at the end of the step of what touched within it and bounces since; 0 if it would be back already.
+/// @param touched speed of touching [m/s] @param closing speed at the beginning of the step [m/s]
+double heightAfter(const Contact& c, double touched, double closing, double acceleration, double time_step) {
+    const double depth = acceleration * time_step * time_step / 2 - c.gap;
+    const double since = 2 * depth / (closing + acceleration * time_step + touched);
+    if (!(since > 0)) return 0;
+    const double up = c.restitution * touched;
+    const double slower = acceleration * since;
+    return up > slower ? (up - slower / 2) * since : 0;
+}
+
+}  // namespace
+
 void noteTouching(const BodyStorage& bodies, double threshold, double time_step, VelocitiesBefore& before,
                   std::span<Contact> contacts) {
+    before.lift.assign(bodies.slots(), Vec3::Zero());
     for (Contact& c : contacts) {
         const auto normalVelocity = [&](const std::vector<Vec3>& v, const std::vector<Vec3>& w) {
             const Vec3 of_a = v[c.a] + w[c.a].cross(c.point - bodies.position[c.a]);
@@ -168,7 +186,18 @@ void noteTouching(const BodyStorage& bodies, double threshold, double time_step,
         if (!bounces) continue;
         before.forced[c.a] = 0;
         before.forced[c.b] = 0;
+        const bool a_moves = bodies.kind[c.a] == BodyKind::dynamic;
+        if (a_moves == (bodies.kind[c.b] == BodyKind::dynamic)) continue;
+        const double height = heightAfter(c, std::sqrt(touched), closing, acceleration, time_step);
+        c.climb = 2 * acceleration * height;
+        Vec3& lift = before.lift[a_moves ? c.a : c.b];
+        const Vec3 way = (a_moves ? height - c.distance : c.distance - height) * c.normal;
+        if (way.squaredNorm() > lift.squaredNorm()) lift = way;
     }
+}
+
+void liftBounced(BodyStorage& bodies, const VelocitiesBefore& before) {
+    for (std::size_t i = 0; i < before.lift.size(); ++i) bodies.position[i] += before.lift[i];
 }
 
 void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, std::span<const std::uint8_t> jointed,

@@ -34,6 +34,7 @@ struct VelocitiesBefore {
     std::vector<Vec3> v;         ///< [m/s, W]
     std::vector<Vec3> w;         ///< [rad/s, W]
     std::vector<double> forced;  ///< by the forces, at most, of any point of the body [m/s]
+    std::vector<Vec3> lift;      ///< with RestitutionSpeed::touching: out of what the body bounces off [m, W]
 };
 
 /// Notes the velocities before advanceVelocities(). @param before out
@@ -47,6 +48,11 @@ void noteForced(const BodyStorage& bodies, const Executor& executor, VelocitiesB
 /// @param threshold speed of touching below which nothing bounces [m/s] @param before in and out
 void noteTouching(const BodyStorage& bodies, double threshold, double time_step, VelocitiesBefore& before,
                   std::span<Contact> contacts);
+
+/// Moves the bodies that bounced off fixed ones to where they are by the end of the step, having bounced when they
+/// touched: beginning the bounce at the end of the step, in the overlap that the correction leaves, would cost time.
+/// @pre noteTouching() in this step, and the resolution is done
+void liftBounced(BodyStorage& bodies, const VelocitiesBefore& before);
 
 /// Completes the step of all awake dynamic bodies that moved smoothly: advancePositions() moved them by the velocity at
 /// the beginning of the step, this adds what is missing to the mean of beginning and end. Under constant forces that is

@@ -129,6 +129,9 @@ void resolveStage(WorldState& world) {
     if (world.settings.integration.exact_flight) {
         completeSmoothMotion(world.bodies, data.before, data.jointed, world.settings.timeStep(), world.executor);
     }
+    if (world.settings.resolution.restitution_speed == RestitutionSpeed::touching) {
+        liftBounced(world.bodies, data.before);
+    }
     measureIfAsked(world, Measured::completion);
 }
 
