@@ -183,9 +183,11 @@ void noteTouching(const BodyStorage& bodies, double threshold, double time_step,
         const double touched = closing * closing + c.fall;
         const bool bounces =
             closing > 0 && touched >= threshold * threshold && c.restitution * c.restitution * touched > c.climb;
-        if (!bounces) continue;
+        // What lands without bouncing is stopped, not carried on by the mean of its velocities.
+        if (!bounces && !(closing > threshold)) continue;
         before.forced[c.a] = 0;
         before.forced[c.b] = 0;
+        if (!bounces) continue;
         const bool a_moves = bodies.kind[c.a] == BodyKind::dynamic;
         if (a_moves == (bodies.kind[c.b] == BodyKind::dynamic)) continue;
         const double height = heightAfter(c, std::sqrt(touched), closing, acceleration, time_step);

@@ -44,7 +44,7 @@ void noteForced(const BodyStorage& bodies, const Executor& executor, VelocitiesB
 
 /// Fills in what RestitutionSpeed::touching needs of the contacts, between advanceVelocities() and the resolution.
 /// While a contact is closed by the acceleration a with the closing speed u at the distance z, u² + 2az stays the same.
-/// The motion of bodies that will bounce counts as not smooth, however slow they are.
+/// The motion of bodies that land or bounce counts as not smooth, however slow they are.
 /// @param threshold speed of touching below which nothing bounces [m/s] @param before in and out
 void noteTouching(const BodyStorage& bodies, double threshold, double time_step, VelocitiesBefore& before,
                   std::span<Contact> contacts);

@@ -154,14 +154,22 @@ TEST(TouchingRestitution, ReachesTheHeightsOfTenBouncesAtAnyTimeStep) {
     }
 }
 
-TEST(TouchingRestitution, LetsABallComeToRest) {
-    Settings settings = accurate(ResolutionKind::impulse_queue);
-    settings.resolution.restitution_speed = RestitutionSpeed::touching;
-    settings.resolution.restitution_threshold = 1e-4;
-    OnGround ground(settings, {.restitution = 0.9, .static_friction = 0, .kinetic_friction = 0},
-                    ball(0.1, Vec3(0, 0, 0.2)));
-    ground.run(5);
-    EXPECT_LT(std::abs(ground.world.linearVelocity(ground.id).z()), 1e-5);
+TEST(TouchingRestitution, LetsABallComeToRestAndStay) {
+    for (const double rate : {240.0, 960.0}) {
+        for (const double restitution : {0.5, 0.9}) {
+            Settings settings = accurate(ResolutionKind::impulse_queue, rate);
+            settings.detection.contact_margin = 1e-9;
+            settings.resolution.restitution_speed = RestitutionSpeed::touching;
+            settings.resolution.restitution_threshold = 1e-4;
+            OnGround ground(settings, {.restitution = restitution, .static_friction = 0, .kinetic_friction = 0},
+                            ball(0.1, Vec3(0, 0, 0.2)));
+            ground.run(5);
+            for (int i = 0; i < 100; ++i) {
+                ground.world.step();
+                ASSERT_LT(std::abs(ground.world.linearVelocity(ground.id).z()), 1e-5) << rate << ", " << restitution;
+            }
+        }
+    }
 }
 
 TEST(ContactOptions, RefuseWhatCannotBe) {

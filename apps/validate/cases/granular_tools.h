@@ -85,10 +85,12 @@ struct Grains {
             if (slow && world.time() > end - 0.8 * longest) return;
         }
     }
-    double highest() const {
-        double top = 0;
-        for (const BodyId id : ids) top = std::max(top, world.pose(id).position.z());
-        return top;
+    /// Height below which nine tenths of the grains are; some still fly about above [m].
+    double level() const {
+        std::vector<double> heights;
+        for (const BodyId id : ids) heights.push_back(world.pose(id).position.z());
+        std::sort(heights.begin(), heights.end());
+        return heights[heights.size() * 9 / 10];
     }
     /// Impulse per time that a body gave upwards in the last step [N].
     double liftedBy(BodyId id) const {

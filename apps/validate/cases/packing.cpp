@@ -23,7 +23,7 @@ bool isInside(const World& world, BodyId id, const Vec3& point) {
 double solidFraction(Grains& grains) {
     const double reach = width / 2 - 1.5 * grain;
     const double lower = 1.5 * grain;
-    const double upper = grains.highest() - 2.5 * grain;
+    const double upper = grains.level() - grain;
     constexpr int points = 20'000;
     int filled = 0;
     for (int i = 0; i < points; ++i) {
