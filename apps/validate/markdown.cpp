@@ -12,6 +12,16 @@ std::string number(const Json& value) {
     return value.is_null() ? "–" : fmt::format("{:.6g}", value.get<double>());
 }
 
+/// A text of the report inside a table, where a bar would end the cell.
+std::string cell(const Json& text) {
+    std::string escaped;
+    for (const char c : text.get<std::string>()) {
+        if (c == '|') escaped += '\\';
+        escaped += c;
+    }
+    return escaped;
+}
+
 std::string limitOf(const Json& q) {
     const std::string rule = q.at("rule");
     if (rule == "relative")
@@ -25,10 +35,9 @@ std::string rowOf(const Json& q) {
     const bool judged = !q.at("passed").is_null();
     const std::string verdict = !judged ? "shown" : q.at("passed").get<bool>() ? "yes" : "**no**";
     const std::string unit = q.at("unit");
-    const std::string setup = q.at("setup");
-    return fmt::format("| {}{} | {} | {} | {} | {} | {} |\n", q.at("what").get<std::string>(),
-                       unit.empty() ? "" : " [" + unit + "]", setup, limitOf(q), number(q.at("measured")), verdict,
-                       q.at("note").get<std::string>());
+    const std::string setup = cell(q.at("setup"));
+    return fmt::format("| {}{} | {} | {} | {} | {} | {} |\n", cell(q.at("what")), unit.empty() ? "" : " [" + unit + "]",
+                       setup, limitOf(q), number(q.at("measured")), verdict, cell(q.at("note")));
 }
 
 /// Everything that is judged; of what is only shown, what has a meaning of its own.
