@@ -55,7 +55,7 @@ struct CorrectionSettings {
 
 /// Contact resolution and shock propagation. @source thesis §3.3–3.8
 struct ResolutionSettings {
-    ResolutionKind resolution = ResolutionKind::impulse_queue;       ///< the algorithm, or none
+    ResolutionKind resolution = ResolutionKind::accelerated_sweeps;  ///< the algorithm, or none
     ResolutionOrder order = ResolutionOrder::highest_closing_speed;  ///< of ResolutionKind::impulse_queue
     double resolution_threshold = 83.4e-6;   ///< closing speed above which a contact is resolved [m/s] (3.4.3)
     double restitution_threshold = 45.8e-3;  ///< closing speed below which restitution is zero [m/s] (3.8.1)
@@ -66,8 +66,11 @@ struct ResolutionSettings {
     bool shock_propagation = true;   ///< Algorithm 10, when the limit was reached with contacts still closing
     double shock_iterations = 6;     ///< the same limit for each stage of the shock propagation; 0 = unlimited
     std::int64_t queue_switch = 64;  ///< batches with more contacts use the ordered queue (§3.8)
-    std::int64_t sweep_limit = 10;   ///< most sweeps (forth and back) of accelerated_sweeps, ≥ 1
-    std::int64_t sweeps = 50;        ///< sweeps over the contacts of ResolutionKind::sweep, ≥ 1
+    std::int64_t sweep_limit = 10;   ///< most sweeps (forth and back) of accelerated_sweeps for a batch at rest, ≥ 1
+    std::int64_t moving_sweep_limit = 2;  ///< the same where a contact closes faster than restitution_threshold, ≥ 1
+    double sweep_tolerance = 1e-6;        ///< no more sweeps once a sweep changes no contact's velocity by more [m/s]
+    std::int64_t direct_limit = 100;     ///< batches at rest of up to so many bodies may take direct steps; 0 = none
+    std::int64_t sweeps = 50;             ///< sweeps over the contacts of ResolutionKind::sweep, ≥ 1
 };
 
 /// Sleeping. @source thesis §3.2

@@ -34,20 +34,22 @@ class ImpactsFirst final : public Resolution {
     ImpactsFirst(std::unique_ptr<Resolution> resolution, Impacts own) : resolution_(std::move(resolution)), own_(own) {}
 
     ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
-                             const ResolutionSettings& settings) override {
+                             const ResolutionSettings& settings, const Executor& executor) override {
         const Impacts wanted = wantedOf(settings, own_);
         if (wanted == own_ || !hasImpact(batch, contacts, bodies, settings)) {
-            return resolution_->resolve(batch, contacts, bodies, settings);
+            return resolution_->resolve(batch, contacts, bodies, settings, executor);
         }
-        const ResolutionCounts first = resolveImpacts(wanted, batch, contacts, bodies, settings);
+        const ResolutionCounts first = resolveImpacts(wanted, batch, contacts, bodies, settings, executor);
         noteJoints(batch);
         ResolutionSettings rest = settings;
         rest.restitution_threshold = std::numeric_limits<double>::infinity();
-        ResolutionCounts counts = resolution_->resolve(batch, contacts, bodies, rest);
+        ResolutionCounts counts = resolution_->resolve(batch, contacts, bodies, rest, executor);
         counts.global_iterations += first.global_iterations;
         addJoints(batch);
         return counts;
     }
+
+    std::size_t sharedFrom() const override { return resolution_->sharedFrom(); }
 
   private:
     static bool hasImpact(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies,
@@ -59,18 +61,19 @@ class ImpactsFirst final : public Resolution {
     }
 
     ResolutionCounts resolveImpacts(Impacts wanted, const BatchView& batch, std::span<Contact> contacts,
-                                    const BodyState& bodies, const ResolutionSettings& settings) {
+                                    const BodyState& bodies, const ResolutionSettings& settings,
+                                    const Executor& executor) {
         ResolutionSettings impacts = settings;
         if (wanted == Impacts::sequential) {
             if (!sequential_) sequential_ = makeImpulseQueueResolution();
             impacts.resolution_threshold = std::max(settings.resolution_threshold, settings.restitution_threshold);
             impacts.global_iterations = sequential_limit;
             impacts.shock_propagation = false;
-            return sequential_->resolve(batch, contacts, bodies, impacts);
+            return sequential_->resolve(batch, contacts, bodies, impacts, executor);
         }
         if (!simultaneous_) simultaneous_ = makeAcceleratedSweepsResolution();
-        impacts.sweep_limit = std::max(settings.sweep_limit, simultaneous_sweeps);
-        return simultaneous_->resolve(batch, contacts, bodies, impacts);
+        impacts.moving_sweep_limit = std::max(settings.moving_sweep_limit, simultaneous_sweeps);
+        return simultaneous_->resolve(batch, contacts, bodies, impacts, executor);
     }
 
     /// A resolution writes the impulses of joints, it does not add them.

@@ -157,7 +157,7 @@ namespace {
 class ImpulseQueueResolution final : public Resolution {
   public:
     ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
-                             const ResolutionSettings& settings) override {
+                             const ResolutionSettings& settings, const Executor&) override {
         ResolutionCounts counts;
         solver_.begin(batch, contacts, bodies, settings);
         all_.resize(batch.contacts.size());

@@ -29,19 +29,30 @@ std::uint32_t LocalBatch::localIndex(BodyIndex slot, const BodyState& state) {
     return local;
 }
 
-void LocalBatch::gather(const BatchView& batch, std::span<const Contact> all_contacts, const BodyState& state) {
+void LocalBatch::gatherBodies(const BatchView& batch, std::span<const Contact> all_contacts, const BodyState& state) {
     if (local_of_slot_.size() < state.size()) local_of_slot_.resize(state.size(), none);
     bodies.clear();
     for (const BodyIndex slot : batch.bodies) localIndex(slot, state);
     dynamic_bodies = bodies.size();
     joints.gather(batch.joints, bodies, local_of_slot_);
+    ends.resize(batch.contacts.size());
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        const Contact& contact = all_contacts[batch.contacts[i]];
+        ends[i].a = localIndex(contact.a, state);
+        ends[i].b = localIndex(contact.b, state);
+    }
+    for (const LocalBody& body : bodies) local_of_slot_[body.slot] = none;
+}
+
+void LocalBatch::gather(const BatchView& batch, std::span<const Contact> all_contacts, const BodyState& state) {
+    gatherBodies(batch, all_contacts, state);
     contacts.resize(batch.contacts.size());
     rolling.clear();
     for (std::size_t i = 0; i < contacts.size(); ++i) {
         const Contact& contact = all_contacts[batch.contacts[i]];
         ContactFrame& frame = contacts[i];
-        frame.a = localIndex(contact.a, state);
-        frame.b = localIndex(contact.b, state);
+        frame.a = ends[i].a;
+        frame.b = ends[i].b;
         frame.basis = contactBasis(contact.normal);
         frame.r_a = contact.point - state.position[contact.a];
         frame.r_b = contact.point - state.position[contact.b];
@@ -56,17 +67,15 @@ void LocalBatch::gather(const BatchView& batch, std::span<const Contact> all_con
         }
         updateCollisionMatrixOf(frame);
     }
-    for (const LocalBody& body : bodies) local_of_slot_[body.slot] = none;
 }
 
-void LocalBatch::push(const ContactFrame& c, const Vec3& impulse) {
-    const Vec3 impulse_W = c.basis * impulse;
+void LocalBatch::pushWorld(const ContactFrame& c, const Vec3& impulse) {
     if (joints.holds(c)) {
-        joints.push(c, impulse_W, bodies);
+        joints.push(c, impulse, bodies);
         return;
     }
-    apply(velocityChange(bodies[c.a], c.r_a, impulse_W), bodies[c.a]);
-    apply(velocityChange(bodies[c.b], c.r_b, -impulse_W), bodies[c.b]);
+    apply(velocityChange(bodies[c.a], c.r_a, impulse), bodies[c.a]);
+    apply(velocityChange(bodies[c.b], c.r_b, -impulse), bodies[c.b]);
 }
 
 void LocalBatch::turn(const ContactFrame& c, const Vec3& impulse) {
@@ -84,7 +93,7 @@ void LocalBatch::updateRolling(const ContactFrame& c) {
     rolling[c.rolling].k = joints.holds(c) ? joints.wrenchMatrix(c, bodies) : wrenchMatrix(c, bodies[c.a], bodies[c.b]);
 }
 
-void LocalBatch::scatter(const BatchView& batch, std::span<Contact> all_contacts, const BodyState& state) const {
+void LocalBatch::scatterBodies(const BodyState& state) const {
     for (std::size_t i = 0; i < dynamic_bodies; ++i) {
         const LocalBody& body = bodies[i];
         if (!state.shock_stage.empty()) state.shock_stage[body.slot] = body.shock_stage;
@@ -93,6 +102,10 @@ void LocalBatch::scatter(const BatchView& batch, std::span<Contact> all_contacts
         state.v[body.slot] = body.v;
         state.w[body.slot] = body.w;
     }
+}
+
+void LocalBatch::scatter(const BatchView& batch, std::span<Contact> all_contacts, const BodyState& state) const {
+    scatterBodies(state);
     joints.scatter();
     for (std::size_t i = 0; i < contacts.size(); ++i) {
         const ContactFrame& frame = contacts[i];

@@ -10,8 +10,8 @@ namespace {
 /// Leaves everything as it is: bodies fall through each other.
 class NoResolution final : public Resolution {
   public:
-    ResolutionCounts resolve(const BatchView&, std::span<Contact>, const BodyState&,
-                             const ResolutionSettings&) override {
+    ResolutionCounts resolve(const BatchView&, std::span<Contact>, const BodyState&, const ResolutionSettings&,
+                             const Executor&) override {
         return {};
     }
 };

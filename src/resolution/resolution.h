@@ -8,6 +8,7 @@
 #include "batches/batches.h"
 #include "body/contact.h"
 #include "cairn/settings.h"
+#include "parallel/executor.h"
 
 namespace cairn {
 
@@ -24,8 +25,11 @@ class Resolution {
     virtual ~Resolution() = default;
     /// Resolves one batch: changes v and w, wakes sleeping bodies whose contact is processed (wake condition 3), adds
     /// to the contacts' impulses.
+    /// @param executor for algorithms that work on one batch with several threads
     virtual ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
-                                     const ResolutionSettings& settings) = 0;
+                                     const ResolutionSettings& settings, const Executor& executor) = 0;
+    /// Batches with at least so many contacts want all threads for themselves; 0 = none does.
+    virtual std::size_t sharedFrom() const { return 0; }
 };
 
 std::unique_ptr<Resolution> makeResolution(ResolutionKind kind);

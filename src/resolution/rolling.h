@@ -1,14 +1,12 @@
-/// @file Contacts that resist rolling and spinning: angular impulses beside the usual one.
+/// @file Contacts that resist rolling and spinning: angular impulses beside the usual one. A Vec6 is an impulse, a
+/// velocity or a change of it at a contact: linear (normal, tangents), then angular (about the normal, about the
+/// tangents), in contact coordinates.
 #pragma once
 
+#include "math/six.h"
 #include "resolution/contact_frame.h"
 
 namespace cairn {
-
-/// Impulse, velocity or change of it at a contact: linear (normal, tangents), then angular (about the normal, about the
-/// tangents). Contact coordinates.
-using Vec6 = Eigen::Matrix<double, 6, 1>;
-using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 /// What a contact that resists rolling has beside its frame.
 struct RollingContact {

@@ -15,7 +15,7 @@ namespace {
 class SweepResolution final : public Resolution {
   public:
     ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
-                             const ResolutionSettings& settings) override {
+                             const ResolutionSettings& settings, const Executor&) override {
         local_.gather(batch, contacts, bodies);
         law_.begin(batch, contacts, local_, settings);
         ResolutionCounts counts;

@@ -130,8 +130,18 @@ const std::vector<SettingField>& fields() {
             "limit of each shock stage as a multiple of its contacts; 0 = unlimited"),
         plain<&S::resolution, &R::queue_switch>("queue_switch", "resolution", "contacts", 0, 1e9,
                                                 "batches with more contacts use the ordered queue (3.8)"),
-        plain<&S::resolution, &R::sweep_limit>("sweep_limit", "resolution", "", 1, 1e6,
-                                               "most sweeps, forth and back, of the resolution 'accelerated_sweeps'"),
+        plain<&S::resolution, &R::sweep_limit>(
+            "sweep_limit", "resolution", "", 1, 1e6,
+            "most sweeps, forth and back, of 'accelerated_sweeps' for batches at rest"),
+        plain<&S::resolution, &R::moving_sweep_limit>(
+            "moving_sweep_limit", "resolution", "", 1, 1e6,
+            "the same for batches where a contact closes faster than restitution_threshold"),
+        plain<&S::resolution, &R::sweep_tolerance>(
+            "sweep_tolerance", "resolution", "m/s", 0, 1e3,
+            "no more sweeps of 'accelerated_sweeps' once one changes no contact's velocity by more"),
+        plain<&S::resolution, &R::direct_limit>(
+            "direct_limit", "resolution", "bodies", 0, 1e6,
+            "batches at rest of up to so many bodies are solved directly where sweeps are not enough; 0 = none"),
         plain<&S::resolution, &R::sweeps>("sweeps", "resolution", "", 1, 1e6,
                                           "sweeps over the contacts of the resolution 'sweep'"),
         plain<&S::sleep, &L::sleeping>("sleeping", "sleep", "", 0, 1, "bodies at rest fall asleep"),
@@ -266,14 +276,24 @@ Settings Settings::preset(Preset preset, double steps_per_second, double gravity
         s.resolution.restitution_threshold = 11.5e-3 * scale;
         s.resolution.global_iterations = 0;
         s.resolution.shock_propagation = false;
+        s.resolution.sweep_limit = 100;
+        s.resolution.moving_sweep_limit = 20;
+        s.resolution.sweep_tolerance = 1e-8 * scale;
+        s.resolution.direct_limit = 1000;
         s.sleep.sleep_threshold = 0.52e-3 * scale;
         s.gravity_damping.damping = 0;
         s.gravity_damping.damping_threshold = 0;
     } else {
         s.resolution.resolution_threshold *= scale;
         s.resolution.restitution_threshold *= scale;
+        s.resolution.sweep_tolerance *= scale;
         s.sleep.sleep_threshold *= scale;
         s.gravity_damping.damping_threshold *= scale;
+    }
+    // Longer time steps take more sweeps, so that the same simulated time costs about the same.
+    const double longer = std::max(1.0, own_steps / steps_per_second);
+    for (std::int64_t* limit : {&s.resolution.sweep_limit, &s.resolution.moving_sweep_limit}) {
+        *limit = static_cast<std::int64_t>(std::ceil(longer * static_cast<double>(*limit)));
     }
     return s;
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 
 #include "integration/integration.h"
@@ -27,21 +28,35 @@ void timed(Statistics& statistics, Stage stage, const Work& work) {
     statistics.stage_ms[static_cast<std::size_t>(stage)] = passed.count();
 }
 
-/// Works on all batches: large ones one by one, largest first, then the small ones in blocks. @source thesis §4
+/// Works on all batches of the schedule from one on: large ones one by one, largest first, then the small ones in
+/// blocks. @source thesis §4
 template <class Work>
-void forBatches(const StepData& data, const Executor& executor, const Work& work) {
-    executor.forEachDynamic(data.large_batches, [&](std::size_t i, int thread) { work(data.schedule[i], thread); });
-    const std::size_t small = data.schedule.size() - data.large_batches;
+void forBatches(const StepData& data, std::size_t first, const Executor& executor, const Work& work) {
+    const std::size_t small_begin = std::max(first, data.large_batches);
+    executor.forEachDynamic(small_begin - first,
+                            [&](std::size_t i, int thread) { work(data.schedule[first + i], thread); });
+    const std::size_t small = data.schedule.size() - small_begin;
     executor.forBlocks(
         small,
         [&](std::size_t begin, std::size_t end, int thread) {
-            for (std::size_t i = begin; i < end; ++i) work(data.schedule[data.large_batches + i], thread);
+            for (std::size_t i = begin; i < end; ++i) work(data.schedule[small_begin + i], thread);
         },
         small_batch_grain);
 }
 
 void measureIfAsked(WorldState& world, Measured point) {
     if (world.settings.diagnostics.diagnostics) measure(world, point);
+}
+
+/// Number of batches, at the beginning of the schedule, on which the resolution wants all threads together.
+std::size_t sharedBatches(const WorldState& world) {
+    const std::size_t from = world.resolutions.front()->sharedFrom();
+    const StepData& data = world.data;
+    std::size_t shared = 0;
+    while (from > 0 && shared < data.large_batches && data.batches[data.schedule[shared]].contacts.size() >= from) {
+        ++shared;
+    }
+    return shared;
 }
 
 void buildBatchesStage(WorldState& world) {
@@ -61,7 +76,7 @@ void correctStage(WorldState& world) {
         for (Contact& contact : data.contacts) contact.gap = contact.distance;
     }
     data.correction_counts.assign(world.corrections.size(), {});
-    forBatches(data, world.executor, [&](std::uint32_t batch, int thread) {
+    forBatches(data, 0, world.executor, [&](std::uint32_t batch, int thread) {
         const auto t = static_cast<std::size_t>(thread);
         const CorrectionCounts counts = world.corrections[t]->correct(data.batches[batch], data.contacts_of,
                                                                       data.contacts, bodies, world.settings.correction);
@@ -114,14 +129,18 @@ void resolveStage(WorldState& world) {
     if (remembers) world.memory.recall(world.bodies, data.contacts, world.executor);
     buildJointBlocks(world);
     data.resolution_counts.assign(world.resolutions.size(), {});
-    forBatches(data, world.executor, [&](std::uint32_t batch, int thread) {
+    const auto resolve = [&](std::uint32_t batch, int thread, const Executor& executor) {
         const auto t = static_cast<std::size_t>(thread);
-        const ResolutionCounts counts =
-            world.resolutions[t]->resolve(batchOf(world, batch), data.contacts, bodies, world.settings.resolution);
+        const ResolutionCounts counts = world.resolutions[t]->resolve(batchOf(world, batch), data.contacts, bodies,
+                                                                      world.settings.resolution, executor);
         data.resolution_counts[t].global_iterations += counts.global_iterations;
         data.resolution_counts[t].shock_iterations += counts.shock_iterations;
         data.resolution_counts[t].shock_batches += counts.shock_batches;
-    });
+    };
+    const std::size_t shared = sharedBatches(world);
+    for (std::size_t i = 0; i < shared; ++i) resolve(data.schedule[i], 0, world.executor);
+    const Executor alone;
+    forBatches(data, shared, world.executor, [&](std::uint32_t batch, int thread) { resolve(batch, thread, alone); });
     if (remembers) world.memory.store(world.bodies, data.contacts, world.executor);
     finishJoints(world);
     quarantine(world);

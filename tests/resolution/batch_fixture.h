@@ -101,7 +101,7 @@ class Pile {
         }
         std::vector<std::uint32_t> indices(contacts.size());
         std::iota(indices.begin(), indices.end(), 0U);
-        return resolution.resolve({bodies, indices}, contacts, state(), settings);
+        return resolution.resolve({bodies, indices}, contacts, state(), settings, Executor{});
     }
 
     /// δ of a contact, straight from its definition. @source thesis (3.4.2)
