@@ -124,6 +124,8 @@ Scene cradleScene(std::string name, int balls, int moving) {
     constexpr double gap = 0.1;
     Scene scene = emptyScene(std::move(name), 2, Vec3::Zero());
     scene.default_pair = {.restitution = 1, .static_friction = 0, .kinetic_friction = 0};
+    // The impact goes from ball to ball; resolved at all contacts at once it would spread over the row.
+    scene.settings = {{"resolution", std::string("impulse_queue")}};
     for (int i = 0; i < balls; ++i) {
         SceneBody ball = dynamicBody(Sphere{radius}, "iron", {2 * radius * i - (i < moving ? gap : 0), 0, 0});
         if (i < moving) ball.linear_velocity = {1, 0, 0};
@@ -151,6 +153,7 @@ Scene swingingCradleScene(std::string name, int balls, int moving) {
     // Every impact must keep its energy: none is too slow to bounce, nothing is moved apart, nothing is damped.
     scene.preset = Preset::accuracy;
     scene.settings = {{"steps_per_second", 3840.0},
+                      {"resolution", std::string("impulse_queue")},
                       {"exact_flight", true},
                       {"correction", std::string("none")},
                       {"restitution_threshold", 1e-9},

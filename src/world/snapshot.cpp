@@ -47,6 +47,8 @@ SettingValue loadSettingValue(ByteReader& in) {
 Settings settingsOfTheFirstVersion() {
     Settings settings;
     settings.correction.spread_levels = 0;
+    settings.resolution.moving_sweep_limit = settings.resolution.sweep_limit;
+    settings.resolution.direct_limit = 0;
     return settings;
 }
 

@@ -18,6 +18,7 @@ TEST(AcceleratedSweeps, CarryTheWholeWeightOfATowerToTheGround) {
     Settings settings = accelerated(scene);
     settings.sleep.sleeping = false;
     settings.resolution.sweep_limit = 200;
+    settings.resolution.sweep_tolerance = 1e-9;
     settings.resolution.resolution_threshold = 1e-9;
     SceneRun run(scene, settings);
     for (int i = 0; i < 240; ++i) run.step();

@@ -16,6 +16,7 @@ Settings accurate(ResolutionKind kind, double rate = 960) {
     settings.sleep.sleeping = false;
     settings.resolution.resolution = kind;
     settings.resolution.sweep_limit = 1000;
+    settings.resolution.moving_sweep_limit = 1000;
     if (kind == ResolutionKind::accelerated_sweeps) settings.resolution.resolution_threshold *= 1e-3;
     return settings;
 }

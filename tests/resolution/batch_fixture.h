@@ -94,14 +94,15 @@ class Pile {
     ResolutionCounts resolve(const ResolutionSettings& settings) {
         return resolve(*makeResolution(settings.resolution), settings);
     }
-    ResolutionCounts resolve(Resolution& resolution, const ResolutionSettings& settings) {
+    ResolutionCounts resolve(Resolution& resolution, const ResolutionSettings& settings,
+                             const Executor& executor = Executor{}) {
         std::vector<BodyIndex> bodies;
         for (BodyIndex i = 0; i < kind.size(); ++i) {
             if (kind[i] == BodyKind::dynamic) bodies.push_back(i);
         }
         std::vector<std::uint32_t> indices(contacts.size());
         std::iota(indices.begin(), indices.end(), 0U);
-        return resolution.resolve({bodies, indices}, contacts, state(), settings, Executor{});
+        return resolution.resolve({bodies, indices}, contacts, state(), settings, executor);
     }
 
     /// δ of a contact, straight from its definition. @source thesis (3.4.2)
@@ -158,6 +159,7 @@ inline ResolutionSettings exactSettings() {
     ResolutionSettings settings;
     settings.resolution_threshold = 1e-9;
     settings.restitution_threshold = 1e-3;
+    settings.resolution = ResolutionKind::impulse_queue;
     settings.global_iterations = 0;
     settings.shock_propagation = false;
     return settings;

@@ -20,6 +20,8 @@ ResolutionSettings lawSettings(ResolutionKind kind) {
     settings.global_iterations = 0;
     settings.shock_propagation = false;
     settings.sweep_limit = 2000;
+    settings.moving_sweep_limit = 2000;
+    settings.sweep_tolerance = 1e-12;
     settings.sweeps = 2000;
     return settings;
 }

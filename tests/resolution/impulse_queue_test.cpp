@@ -188,6 +188,7 @@ TEST(ImpulseQueue, GivesTheSameBitsWithBothQueues) {
     std::vector<Pile> piles = {latticePile(3, 3), latticePile(5, 4), latticePile(2, 9)};
     for (std::uint64_t seed = 0; seed < 30; ++seed) piles.push_back(randomPile(seed, 20 + 5 * seed, 40 + 12 * seed, 3));
     ResolutionSettings settings;
+    settings.resolution = ResolutionKind::impulse_queue;
     settings.shock_iterations = 3;
     bool shock_ran = false;
     for (const Pile& pile : piles) {
@@ -286,6 +287,7 @@ TEST(ImpulseQueue, EndsAndSparesTheNeighboursWhenABodyIsNotFinite) {
 TEST(ImpulseQueue, HasNoMemoryOfTheBatchBefore) {
     const std::unique_ptr<Resolution> used = makeResolution(ResolutionKind::impulse_queue);
     ResolutionSettings settings;
+    settings.resolution = ResolutionKind::impulse_queue;
     settings.global_iterations = 0.5;
     for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
         Pile fresh = randomPile(seed, 100 / seed, 300 / seed, 2);
@@ -308,6 +310,7 @@ TEST(NoResolution, LeavesEverythingAsItIs) {
     Pile pile = latticePile(2, 2);
     const Pile before = pile;
     ResolutionSettings settings;
+    settings.resolution = ResolutionKind::impulse_queue;
     settings.resolution = ResolutionKind::none;
     EXPECT_EQ(pile.resolve(settings).global_iterations, 0);
     expectSameState(pile, before);

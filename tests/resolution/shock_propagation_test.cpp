@@ -51,6 +51,7 @@ Pile pyramid(double speed) {
 /// A few global iterations, then shock propagation without a limit.
 ResolutionSettings fewGlobalIterations() {
     ResolutionSettings settings;
+    settings.resolution = ResolutionKind::impulse_queue;
     settings.resolution_threshold = 1e-6;
     settings.global_iterations = 0.5;
     settings.shock_iterations = 0;

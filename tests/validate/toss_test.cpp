@@ -17,6 +17,7 @@ Settings settingsOfTosses() {
     settings.sleep.sleeping = false;
     settings.resolution.resolution = ResolutionKind::accelerated_sweeps;
     settings.resolution.sweep_limit = 1000;
+    settings.resolution.moving_sweep_limit = 1000;
     return settings;
 }
 

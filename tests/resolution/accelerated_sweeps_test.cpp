@@ -1,0 +1,140 @@
+/// Sweeps with accumulated impulses, and the direct step for what rests.
+#include <gtest/gtest.h>
+
+#include "resolution/batch_fixture.h"
+
+namespace cairn {
+namespace {
+
+using test::Pile;
+
+constexpr double fall = 10.0 / 240;  // speed that gravity gives in a time step [m/s]
+
+ResolutionSettings sweeping() {
+    ResolutionSettings settings = test::exactSettings();
+    settings.resolution = ResolutionKind::accelerated_sweeps;
+    settings.restitution_threshold = 1.1 * fall;
+    settings.sweep_limit = 20;
+    settings.moving_sweep_limit = 2000;
+    settings.sweep_tolerance = 1e-9;
+    settings.direct_limit = 1000;
+    return settings;
+}
+
+/// Boxes of 1 m on each other, all falling for one step; body 0 is the ground. @param mass of the box in a place
+template <class Mass>
+Pile towerOf(int boxes, const Mass& mass, double friction = 0.5) {
+    Pile pile;
+    pile.addFixed(Vec3(0, 0, -0.5));
+    for (int i = 0; i < boxes; ++i) {
+        const BodyIndex box = pile.addBox(Vec3(0, 0, i + 0.5), mass(i), Vec3::Ones());
+        pile.v[box] = Vec3(0, 0, -fall);
+        for (const double x : {-0.5, 0.5}) {
+            for (const double y : {-0.5, 0.5}) {
+                pile.touch(box - 1, box, Vec3(x, y, i), -Vec3::UnitZ(), 0, {friction, friction});
+            }
+        }
+    }
+    return pile;
+}
+
+double largestSpeed(const Pile& pile) {
+    double largest = 0;
+    for (std::size_t i = 0; i < pile.v.size(); ++i) largest = std::max({largest, pile.v[i].norm(), pile.w[i].norm()});
+    return largest;
+}
+
+double pushOnGround(const Pile& pile) {
+    double sum = 0;
+    for (const Contact& c : pile.contacts) {
+        if (c.a == 0) sum -= c.impulse.z();
+    }
+    return sum;
+}
+
+TEST(DirectStep, StopsATowerInItsFirstStep) {
+    Pile pile = towerOf(40, [](int) { return 1.0; });
+    pile.resolve(sweeping());
+    EXPECT_LT(largestSpeed(pile), 1e-9);
+    EXPECT_NEAR(pushOnGround(pile), 40 * fall, 1e-9);
+}
+
+TEST(DirectStep, IsWhatStopsIt) {
+    Pile pile = towerOf(40, [](int) { return 1.0; });
+    ResolutionSettings settings = sweeping();
+    settings.direct_limit = 39;
+    pile.resolve(settings);
+    EXPECT_GT(largestSpeed(pile), 1e-4) << "twenty sweeps are not enough for forty boxes";
+}
+
+TEST(DirectStep, HoldsAThousandTimesHeavierBoxOnALightOne) {
+    Pile pile = towerOf(2, [](int i) { return i == 0 ? 1.0 : 1000.0; });
+    pile.resolve(sweeping());
+    EXPECT_LT(largestSpeed(pile), 1e-9);
+    EXPECT_NEAR(pushOnGround(pile), 1001 * fall, 1e-6);
+}
+
+TEST(DirectStep, LeavesEveryImpulseInItsFrictionCone) {
+    Pile pile = towerOf(
+        10, [](int) { return 1.0; }, 0.1);
+    for (BodyIndex i = 1; i < pile.v.size(); ++i) pile.v[i].x() = 0.2 * fall;  // more than friction can stop
+    pile.resolve(sweeping());
+    for (const Contact& c : pile.contacts) {
+        const double normal = c.normal.dot(c.impulse);
+        EXPECT_GE(normal, -1e-12);
+        EXPECT_LE((c.impulse - normal * c.normal).norm(), 0.1 * normal + 1e-9);
+    }
+    EXPECT_GT(pile.v[1].x(), 0.05 * fall);
+}
+
+TEST(AcceleratedSweeps, KeepMomentumWithAndWithoutColours) {
+    for (const std::size_t contacts : {100, 2000}) {
+        Pile pile = test::randomPile(7, contacts / 4, contacts);
+        const Vec3 momentum = pile.momentum();
+        const Vec3 angular = pile.angularMomentum();
+        pile.resolve(sweeping());
+        EXPECT_LT((pile.momentum() - momentum).norm(), 1e-12 * static_cast<double>(contacts));
+        EXPECT_LT((pile.angularMomentum() - angular).norm(), 1e-11 * static_cast<double>(contacts));
+    }
+}
+
+TEST(AcceleratedSweeps, GiveTheSameBitsOnAnyNumberOfThreads) {
+    const Pile before = test::randomPile(8, 600, 3000, 5);
+    Pile one = before;
+    one.resolve(sweeping());
+    for (const int threads : {2, 3, 4, 8}) {
+        Pile many = before;
+        many.resolve(*makeResolution(ResolutionKind::accelerated_sweeps), sweeping(), Executor(threads));
+        for (std::size_t i = 0; i < one.v.size(); ++i) {
+            ASSERT_EQ(one.v[i], many.v[i]) << threads;
+            ASSERT_EQ(one.w[i], many.w[i]) << threads;
+        }
+    }
+}
+
+TEST(AcceleratedSweeps, LeaveABatchAsleepAloneButKeepItsImpulses) {
+    Pile pile = towerOf(3, [](int) { return 1.0; });
+    for (BodyIndex i = 1; i < pile.v.size(); ++i) {
+        pile.v[i].setZero();
+        pile.asleep[i] = 1;
+    }
+    for (Contact& c : pile.contacts) c.last_impulse = Vec3(0, 0, -1);
+    EXPECT_EQ(pile.resolve(sweeping()).global_iterations, 0);
+    for (const Contact& c : pile.contacts) EXPECT_EQ(c.impulse, c.last_impulse);
+    EXPECT_EQ(pile.asleep[1], 1);
+}
+
+TEST(AcceleratedSweeps, AMovingSupportWakesABatch) {
+    Pile pile = towerOf(3, [](int) { return 1.0; });
+    for (BodyIndex i = 1; i < pile.v.size(); ++i) {
+        pile.v[i].setZero();
+        pile.asleep[i] = 1;
+    }
+    pile.v[0] = Vec3(0, 0, 1);
+    pile.resolve(sweeping());
+    EXPECT_EQ(pile.asleep[1], 0);
+    EXPECT_GT(pile.v[3].z(), 0.9);
+}
+
+}  // namespace
+}  // namespace cairn
