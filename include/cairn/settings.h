@@ -68,9 +68,12 @@ struct ResolutionSettings {
     std::int64_t queue_switch = 64;  ///< batches with more contacts use the ordered queue (§3.8)
     std::int64_t sweep_limit = 10;   ///< most sweeps (forth and back) of accelerated_sweeps for a batch at rest, ≥ 1
     std::int64_t moving_sweep_limit = 2;  ///< the same where a contact closes faster than restitution_threshold, ≥ 1
-    double sweep_tolerance = 1e-6;        ///< no more sweeps once a sweep changes no contact's velocity by more [m/s]
-    std::int64_t direct_limit = 100;     ///< batches at rest of up to so many bodies may take direct steps; 0 = none
-    std::int64_t sweeps = 50;             ///< sweeps over the contacts of ResolutionKind::sweep, ≥ 1
+    /// Batches at rest end after so many visits of contacts (two per sweep) even below their sweep_limit, but not below
+    /// moving_sweep_limit; 0 = they do not.
+    std::int64_t visit_limit = 80'000;
+    double sweep_tolerance = 1e-6;    ///< no more sweeps once a sweep changes no contact's velocity by more [m/s]
+    std::int64_t direct_limit = 100;  ///< batches at rest of up to so many bodies may take direct steps; 0 = none
+    std::int64_t sweeps = 50;         ///< sweeps over the contacts of ResolutionKind::sweep, ≥ 1
 };
 
 /// Sleeping. @source thesis §3.2

@@ -11,6 +11,7 @@
 #include "resolution/direct_step.h"
 #include "resolution/impulse.h"
 #include "resolution/local_batch.h"
+#include "resolution/sweep_direction.h"
 #include "resolution/swept_contact.h"
 
 namespace cairn {
@@ -30,15 +31,8 @@ constexpr std::size_t loop_grain = 256;
 /// Plain sweeps before the first direct step: they find out which contacts push and stick.
 constexpr std::int64_t sweeps_before_leap = 3;
 
-/// Contacts whose changes are added up together: fixed, so that sums do not depend on the number of threads.
-constexpr std::size_t sum_block = 256;
-
-/// The angular impulse of a contact that resists rolling; contact coordinates.
-struct SweptRolling {
-    Vec3 impulse = Vec3::Zero();    ///< accumulated, on A [N·m·s]
-    Vec3 direction = Vec3::Zero();  ///< last direction of the conjugate gradients [N·m·s]
-    Vec3 before = Vec3::Zero();     ///< at the beginning of the sweep [N·m·s]
-};
+/// A direct step is taken back unless it leaves less than this part of the squared change of a sweep.
+constexpr double worthwhile = 0.25;
 
 /// Whether the contacts of a batch need their frames: joints and rolling friction work with those.
 bool needsFrames(const BatchView& batch, std::span<const Contact> contacts) {
@@ -73,12 +67,6 @@ class AcceleratedSweepsResolution final : public Resolution {
     }
 
   private:
-    /// How much a sweep changed.
-    struct Change {
-        double squared = 0;        ///< of the impulses, weighted by the normal part of K: twice an energy [J]
-        double largest_speed = 0;  ///< largest change of a contact's velocity by its own impulse [m/s]
-    };
-
     /// Whether nothing of the batch moves or may move: its contacts go on with the impulses that they had.
     static bool isAtSleep(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
         if (!batch.joints.empty()) return false;
@@ -93,11 +81,12 @@ class AcceleratedSweepsResolution final : public Resolution {
 
     /// @return contacts visited
     std::int64_t sweepUntilSteady(const ResolutionSettings& settings, const Executor& executor) {
-        const std::int64_t limit = moving_ ? settings.moving_sweep_limit : settings.sweep_limit;
+        const std::int64_t limit = sweepLimit(settings);
         bool may_leap =
             !moving_ && !framed_ && local_.dynamic_bodies <= static_cast<std::size_t>(settings.direct_limit);
         bool leapt = false;   // the impulses were changed by a direct step, which the next sweep judges
         double gradient = 0;  // squared change of the last sweep; 0 = there is no direction
+        const SweepDirection::Swept swept{swept_, rolling_, local_, executor};
         std::int64_t sweep = 1;
         for (;; ++sweep) {
             const bool bounds_changed = local_.joints.resolveBounds(local_.bodies, settings.resolution_threshold);
@@ -105,10 +94,10 @@ class AcceleratedSweepsResolution final : public Resolution {
                 sweepOnce(executor);
                 break;
             }
-            noteBefore(executor);
+            direction_.note(swept);
             sweepOnce(executor);
-            const Change change = changeOfSweep(executor);
-            const bool fails = leapt && !(change.squared < gradient);
+            const SweepChange change = direction_.change(swept);
+            const bool fails = leapt && !(change.squared < worthwhile * gradient);
             if (fails) goBack();
             if (leapt) gradient = 0;
             leapt = false;
@@ -121,11 +110,20 @@ class AcceleratedSweepsResolution final : public Resolution {
                 leapt = true;
             } else {
                 const bool descends = !bounds_changed && gradient > 0 && change.squared <= gradient;
-                accelerate(descends ? change.squared / gradient : 0, gradient == 0, executor);
+                if (gradient == 0) direction_.restart(swept);
+                direction_.accelerate(descends ? change.squared / gradient : 0, swept);
             }
             gradient = change.squared;
         }
         return 2 * sweep * static_cast<std::int64_t>(swept_.size());
+    }
+
+    /// Batches at rest are swept until they converge, large ones only as far as the budget goes.
+    std::int64_t sweepLimit(const ResolutionSettings& settings) const {
+        if (moving_ || swept_.empty()) return settings.moving_sweep_limit;
+        if (settings.visit_limit == 0) return settings.sweep_limit;
+        const std::int64_t affordable = settings.visit_limit / (2 * static_cast<std::int64_t>(swept_.size()));
+        return std::min(std::max(affordable, settings.moving_sweep_limit), settings.sweep_limit);
     }
 
     /// Takes the direct step, as far as the friction cones allow it.
@@ -328,104 +326,6 @@ class AcceleratedSweepsResolution final : public Resolution {
         }
     }
 
-    void noteBefore(const Executor& executor) {
-        impulses_before_.resize(swept_.size());
-        bodies_before_.resize(local_.dynamic_bodies);
-        for (SweptRolling& s : rolling_) s.before = s.impulse;
-        executor.forBlocks(
-            swept_.size(),
-            [&](std::size_t begin, std::size_t end, int) {
-                for (std::size_t i = begin; i < end; ++i) impulses_before_[i] = swept_[i].impulse;
-            },
-            loop_grain);
-        executor.forBlocks(
-            bodies_before_.size(),
-            [&](std::size_t begin, std::size_t end, int) {
-                for (std::size_t i = begin; i < end; ++i) bodies_before_[i] = {local_.bodies[i].v, local_.bodies[i].w};
-            },
-            loop_grain);
-    }
-
-    Change changeOfSweep(const Executor& executor) {
-        sums_.resize((swept_.size() + sum_block - 1) / sum_block);
-        executor.forBlocks(
-            sums_.size(),
-            [&](std::size_t begin, std::size_t end, int) {
-                for (std::size_t block = begin; block < end; ++block) sums_[block] = changeOfBlock(block);
-            },
-            1);
-        Change change;
-        for (const Change& part : sums_) {
-            change.squared += part.squared;
-            change.largest_speed = std::max(change.largest_speed, part.largest_speed);
-        }
-        if (!rolling_.empty()) addRolling(change);
-        return change;
-    }
-
-    void addRolling(Change& change) const {
-        for (const ContactFrame& frame : local_.contacts) {
-            if (frame.rolling == ContactFrame::rolls_freely) continue;
-            const Mat6& k = local_.rolling[frame.rolling].k;
-            const Vec3 difference = rolling_[frame.rolling].impulse - rolling_[frame.rolling].before;
-            change.squared += k(3, 3) * difference.squaredNorm();
-            change.largest_speed = std::max(change.largest_speed, (k.topRightCorner<3, 3>() * difference).norm());
-        }
-    }
-
-    Change changeOfBlock(std::size_t block) const {
-        Change change;
-        const std::size_t end = std::min(swept_.size(), (block + 1) * sum_block);
-        for (std::size_t i = block * sum_block; i < end; ++i) {
-            const SweptContact& s = swept_[i];
-            if (!isResolvable(s)) continue;
-            const Vec3 difference = s.impulse - impulses_before_[i];
-            change.squared += difference.squaredNorm() / s.normal_mass;
-            change.largest_speed = std::max(change.largest_speed, (s.k * difference).norm());
-        }
-        return change;
-    }
-
-    /// Adds β times the last direction to impulses and velocities; the new direction is the sweep's change plus that.
-    /// @param first there is no last direction
-    void accelerate(double beta, bool first, const Executor& executor) {
-        if (first) {
-            direction_.assign(swept_.size(), Vec3::Zero());
-            for (SweptRolling& s : rolling_) s.direction.setZero();
-            body_direction_.assign(local_.dynamic_bodies, {Vec3::Zero(), Vec3::Zero()});
-        }
-        executor.forBlocks(
-            swept_.size(),
-            [&](std::size_t begin, std::size_t end, int) {
-                for (std::size_t i = begin; i < end; ++i) {
-                    const Vec3 change = swept_[i].impulse - impulses_before_[i];
-                    const Vec3 step = beta * direction_[i];
-                    swept_[i].impulse += step;
-                    direction_[i] = change + step;
-                }
-            },
-            loop_grain);
-        for (SweptRolling& s : rolling_) {
-            const Vec3 change = s.impulse - s.before;
-            const Vec3 step = beta * s.direction;
-            s.impulse += step;
-            s.direction = change + step;
-        }
-        executor.forBlocks(
-            bodies_before_.size(),
-            [&](std::size_t begin, std::size_t end, int) {
-                for (std::size_t i = begin; i < end; ++i) {
-                    LocalBody& body = local_.bodies[i];
-                    const Twist change{body.v - bodies_before_[i].v, body.w - bodies_before_[i].w};
-                    const Twist step{beta * body_direction_[i].v, beta * body_direction_[i].w};
-                    body.v += step.v;
-                    body.w += step.w;
-                    body_direction_[i] = {change.v + step.v, change.w + step.w};
-                }
-            },
-            loop_grain);
-    }
-
     void finish(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
                 const Executor& executor) {
         if (framed_) settleFrames(batch, contacts);
@@ -458,17 +358,13 @@ class AcceleratedSweepsResolution final : public Resolution {
     LocalBatch local_;
     ContactColours colours_;
     DirectStep direct_;
+    SweepDirection direction_;
     bool framed_ = false;                ///< local_ has frames, and the contacts are in the batch's order
     std::atomic<bool> moving_ = false;   ///< some contact closes faster than one at rest does
     bool has_two_frictions_ = false;     ///< kinetic friction is less than static friction somewhere
     std::vector<SweptContact> swept_;    ///< [contacts] in colour order
     std::vector<SweptRolling> rolling_;  ///< as LocalBatch::rolling
     std::vector<Vec3> kept_;             ///< [contacts] impulses before a direct step [N·s]
-    std::vector<Vec3> impulses_before_;  ///< [contacts] at the beginning of the sweep [N·s]
-    std::vector<Vec3> direction_;        ///< [contacts] last direction of the conjugate gradients [N·s]
-    std::vector<Twist> bodies_before_;   ///< [dynamic bodies] at the beginning of the sweep
-    std::vector<Twist> body_direction_;  ///< [dynamic bodies] last direction
-    std::vector<Change> sums_;           ///< [blocks]
 };
 
 }  // namespace

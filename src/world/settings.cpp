@@ -136,6 +136,9 @@ const std::vector<SettingField>& fields() {
         plain<&S::resolution, &R::moving_sweep_limit>(
             "moving_sweep_limit", "resolution", "", 1, 1e6,
             "the same for batches where a contact closes faster than restitution_threshold"),
+        plain<&S::resolution, &R::visit_limit>(
+            "visit_limit", "resolution", "", 0, 1e12,
+            "most visits of contacts, two per sweep, of batches at rest beyond moving_sweep_limit; 0 = unlimited"),
         plain<&S::resolution, &R::sweep_tolerance>(
             "sweep_tolerance", "resolution", "m/s", 0, 1e3,
             "no more sweeps of 'accelerated_sweeps' once one changes no contact's velocity by more"),
@@ -278,6 +281,7 @@ Settings Settings::preset(Preset preset, double steps_per_second, double gravity
         s.resolution.shock_propagation = false;
         s.resolution.sweep_limit = 100;
         s.resolution.moving_sweep_limit = 20;
+        s.resolution.visit_limit = 0;
         s.resolution.sweep_tolerance = 1e-8 * scale;
         s.resolution.direct_limit = 1000;
         s.sleep.sleep_threshold = 0.52e-3 * scale;
@@ -292,7 +296,8 @@ Settings Settings::preset(Preset preset, double steps_per_second, double gravity
     }
     // Longer time steps take more sweeps, so that the same simulated time costs about the same.
     const double longer = std::max(1.0, own_steps / steps_per_second);
-    for (std::int64_t* limit : {&s.resolution.sweep_limit, &s.resolution.moving_sweep_limit}) {
+    for (std::int64_t* limit :
+         {&s.resolution.sweep_limit, &s.resolution.moving_sweep_limit, &s.resolution.visit_limit}) {
         *limit = static_cast<std::int64_t>(std::ceil(longer * static_cast<double>(*limit)));
     }
     return s;

@@ -48,6 +48,7 @@ Settings settingsOfTheFirstVersion() {
     Settings settings;
     settings.correction.spread_levels = 0;
     settings.resolution.moving_sweep_limit = settings.resolution.sweep_limit;
+    settings.resolution.visit_limit = 0;
     settings.resolution.direct_limit = 0;
     return settings;
 }

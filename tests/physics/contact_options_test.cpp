@@ -228,6 +228,8 @@ INSTANTIATE_TEST_SUITE_P(Resolutions, Accounts,
 
 TEST(Diagnostics, CountDampingAndSleepOnAccountsOfTheirOwn) {
     Settings settings = Settings::preset(Preset::performance, 240, g);
+    // It leaves resting bodies a little motion that sleep takes; the sweeps leave none.
+    settings.resolution.resolution = ResolutionKind::impulse_queue;
     World world = tumbling(settings);
     Statistics sum;
     double energy = world.kineticEnergy() + world.potentialEnergy();
