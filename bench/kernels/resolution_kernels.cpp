@@ -143,7 +143,7 @@ Pass batchPass(std::string_view resolution) {
     };
     pass.run = [pile, solver] {
         ResolutionCounts counts =
-            solver->resolve(pile->batch(), pile->contacts, pile->state(), pile->settings.resolution);
+            solver->resolve(pile->batch(), pile->contacts, pile->state(), pile->settings.resolution, Executor{});
         keep(counts);
     };
     return pass;
