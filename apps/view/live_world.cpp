@@ -52,7 +52,7 @@ void LiveWorld::begin(const Settings& settings) {
     World& world = run->world();
     for (const auto& [name, density] : common_materials) {
         const auto known = world.materials();
-        if (std::ranges::none_of(known, [&](const Material& m) { return m.name == name; })) {
+        if (std::ranges::none_of(known, [&, name = name](const Material& m) { return m.name == name; })) {
             world.addMaterial({name, density});
         }
     }

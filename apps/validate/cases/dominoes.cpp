@@ -65,7 +65,7 @@ Result run(const Plan& plan) {
         measureOver(
             result, rates,
             {{fmt::format("speed of the wave, gap {:g} mm", 1000 * gap), "m/s", Rule::relative, speed, 0.03, 3840}},
-            [&](double rate) { return std::vector{last = waveSpeed(accurateSettings(rate), gap, plan)}; });
+            [&, gap = gap](double rate) { return std::vector{last = waveSpeed(accurateSettings(rate), gap, plan)}; });
         measured.x.push_back(1000 * gap);
         measured.y.push_back(last);
         expected.x.push_back(1000 * gap);

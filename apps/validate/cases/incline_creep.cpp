@@ -15,7 +15,7 @@ Result run(const Plan& plan) {
                                          std::pair(ResolutionKind::accelerated_sweeps, "accelerated_sweeps")}) {
         measureOver(result, {240, 960},
                     {{std::string("creep in 60 s, ") + name, "m", Rule::at_most, 0, 1e-6 * duration / 60, 960}},
-                    [&](double rate) {
+                    [&, resolver = resolver](double rate) {
                         const Settings settings = accurateSettings(rate, resolver);
                         InclineBox setup(settings, angle, 0.3, contactLaw(0, friction));
                         while (setup.world.time() < duration) {

@@ -30,7 +30,7 @@ Result run(const Plan& plan) {
                                          std::pair(ResolutionKind::accelerated_sweeps, "accelerated_sweeps")}) {
         measureOver(result, plan.rates(),
                     {{std::string("angle of slip, ") + name, "°", Rule::absolute, expected, 0.01, 240}},
-                    [&](double rate) { return std::vector{angleOfSlip(rate, resolver, plan)}; });
+                    [&, resolver = resolver](double rate) { return std::vector{angleOfSlip(rate, resolver, plan)}; });
     }
     return result;
 }
