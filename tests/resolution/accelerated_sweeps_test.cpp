@@ -93,7 +93,9 @@ TEST(AcceleratedSweeps, KeepMomentumWithAndWithoutColours) {
         Pile pile = test::randomPile(7, contacts / 4, contacts);
         const Vec3 momentum = pile.momentum();
         const Vec3 angular = pile.angularMomentum();
-        pile.resolve(sweeping());
+        ResolutionSettings settings = sweeping();
+        settings.moving_sweep_limit = 20;
+        pile.resolve(settings);
         EXPECT_LT((pile.momentum() - momentum).norm(), 1e-12 * static_cast<double>(contacts));
         EXPECT_LT((pile.angularMomentum() - angular).norm(), 1e-11 * static_cast<double>(contacts));
     }
@@ -101,11 +103,13 @@ TEST(AcceleratedSweeps, KeepMomentumWithAndWithoutColours) {
 
 TEST(AcceleratedSweeps, GiveTheSameBitsOnAnyNumberOfThreads) {
     const Pile before = test::randomPile(8, 600, 3000, 5);
+    ResolutionSettings settings = sweeping();
+    settings.moving_sweep_limit = 20;
     Pile one = before;
-    one.resolve(sweeping());
+    one.resolve(settings);
     for (const int threads : {2, 3, 4, 8}) {
         Pile many = before;
-        many.resolve(*makeResolution(ResolutionKind::accelerated_sweeps), sweeping(), Executor(threads));
+        many.resolve(*makeResolution(ResolutionKind::accelerated_sweeps), settings, Executor(threads));
         for (std::size_t i = 0; i < one.v.size(); ++i) {
             ASSERT_EQ(one.v[i], many.v[i]) << threads;
             ASSERT_EQ(one.w[i], many.w[i]) << threads;
