@@ -8,7 +8,7 @@
 namespace cairn::view {
 namespace {
 
-constexpr Access local{8137, {}};
+const Access local{8137, {}};
 
 unsigned statusOf(std::string_view target, std::string_view host = "127.0.0.1:8137", std::string_view origin = "",
                   std::string_view method = "GET") {
