@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -9,7 +8,6 @@
 #include "resolution/contact_colours.h"
 #include "resolution/contact_law.h"
 #include "resolution/direct_step.h"
-#include "resolution/impulse.h"
 #include "resolution/local_batch.h"
 #include "resolution/sweep_direction.h"
 #include "resolution/swept_contact.h"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "body/contact.h"
 #include "resolution/contact_frame.h"
