@@ -1,6 +1,7 @@
 #include "resolution/resolution.h"
 
 #include "resolution/algorithms.h"
+#include "resolution/energy_bound.h"
 #include "resolution/impacts_first.h"
 
 namespace cairn {
@@ -25,7 +26,7 @@ std::unique_ptr<Resolution> makeResolution(ResolutionKind kind) {
         case ResolutionKind::sweep:
             return makeImpactsFirst(makeSweepResolution(), Impacts::sequential);
         case ResolutionKind::accelerated_sweeps:
-            return makeImpactsFirst(makeAcceleratedSweepsResolution(), Impacts::simultaneous);
+            return makeEnergyBound(makeImpactsFirst(makeAcceleratedSweepsResolution(), Impacts::simultaneous));
         case ResolutionKind::none:
             break;
     }

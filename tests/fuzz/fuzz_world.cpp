@@ -54,8 +54,6 @@ void addJoint(World& world, fuzz::Bytes& in, Made& made) {
     if (in.below(4) == 0) d.break_torque = std::abs(in.number(1e3));
     d.collide = in.below(2) == 0;
     made.joints.push_back(world.addJoint(d));
-    // Friction at a body that a joint holds may raise the energy, as in Painlevé's paradox.
-    world.setChecks(Checks::state);
 }
 
 /// Keeps a moment, or goes back to it.

@@ -1,0 +1,63 @@
+/// No resolution that begins with the impulses of the last step raises the kinetic energy of a batch.
+#include <gtest/gtest.h>
+
+#include "resolution/batch_fixture.h"
+
+namespace cairn {
+namespace {
+
+using test::Pile;
+
+double kineticEnergyOf(const Pile& pile) {
+    double energy = 0;
+    for (std::size_t i = 0; i < pile.v.size(); ++i) {
+        if (pile.mass_inv[i] == 0) continue;
+        const Vec3 spin = pile.inertiaInv_W[i].inverse() * pile.w[i];
+        energy += 0.5 * (pile.v[i].squaredNorm() / pile.mass_inv[i] + pile.w[i].dot(spin));
+    }
+    return energy;
+}
+
+ResolutionSettings fewSweeps() {
+    ResolutionSettings settings = test::exactSettings();
+    settings.resolution = ResolutionKind::accelerated_sweeps;
+    settings.restitution_threshold = 0.05;
+    settings.sweep_limit = 1;
+    settings.moving_sweep_limit = 1;
+    settings.visit_limit = 0;
+    settings.direct_limit = 0;
+    return settings;
+}
+
+/// A chain of balls on a table. @param last impulse that each contact had in the step before [N·s]
+Pile chain(double last) {
+    Pile pile;
+    const BodyIndex ground = pile.addFixed(Vec3(0, 0, -1));
+    for (int i = 0; i < 10; ++i) {
+        const BodyIndex ball = pile.addSphere(Vec3(0, 0, 0.5 + i), i % 2 == 0 ? 1 : 30);
+        pile.touch(ball == 1 ? ground : ball - 1, ball, Vec3(0, 0, i), -Vec3::UnitZ(), 0, {0.5, 0.5});
+        pile.contacts.back().last_impulse = -last * Vec3::UnitZ();
+        pile.v[ball] = Vec3(0, 0, -0.01);
+    }
+    return pile;
+}
+
+TEST(EnergyBound, ForgetsImpulsesOfAnotherSituation) {
+    Pile pile = chain(50);
+    const double before = kineticEnergyOf(pile);
+    pile.resolve(fewSweeps());
+    EXPECT_LE(kineticEnergyOf(pile), before * (1 + 1e-12));
+    for (const Contact& contact : pile.contacts) EXPECT_LT(contact.impulse.norm(), 10);
+}
+
+TEST(EnergyBound, LeavesGoodImpulsesAlone) {
+    Pile cold = chain(0);
+    Pile warm = cold;
+    cold.resolve(fewSweeps());
+    for (std::size_t i = 0; i < warm.contacts.size(); ++i) warm.contacts[i].last_impulse = cold.contacts[i].impulse;
+    warm.resolve(fewSweeps());
+    EXPECT_LT(kineticEnergyOf(warm), kineticEnergyOf(cold));
+}
+
+}  // namespace
+}  // namespace cairn
