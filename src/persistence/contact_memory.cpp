@@ -54,7 +54,8 @@ void ContactMemory::recallPair(const BodyStorage& bodies, std::span<Contact> con
     }
 }
 
-void ContactMemory::recall(const BodyStorage& bodies, std::span<Contact> contacts, const Executor& executor) const {
+void ContactMemory::recall(const BodyStorage& bodies, std::span<const std::uint8_t> still, std::span<Contact> contacts,
+                           const Executor& executor) const {
     executor.forBlocks(contacts.size(), [&](std::size_t begin, std::size_t end, int) {
         // The pair that a block's border cuts belongs to the block in which it begins.
         while (begin > 0 && begin < end && isSamePair(contacts[begin - 1], contacts[begin])) ++begin;
@@ -66,7 +67,12 @@ void ContactMemory::recall(const BodyStorage& bodies, std::span<Contact> contact
             std::size_t last = begin + 1;
             while (last < contacts.size() && isSamePair(contacts[begin], contacts[last])) ++last;
             const auto candidates = entriesOf(contacts[begin].a, contacts[begin].b, cursor);
-            recallPair(bodies, contacts.subspan(begin, last - begin), candidates);
+            const bool same = (still[contacts[begin].a] & still[contacts[begin].b]) != 0;
+            if (same && candidates.size() == last - begin) {
+                for (std::size_t i = begin; i < last; ++i) contacts[i].last_impulse = candidates[i - begin].impulse;
+            } else {
+                recallPair(bodies, contacts.subspan(begin, last - begin), candidates);
+            }
             begin = last;
         }
     });

@@ -17,8 +17,11 @@ namespace cairn {
 class ContactMemory {
   public:
     /// Gives every contact the impulse that the nearest remembered contact of its pair ended with, or zero.
+    /// @param still [slots] 1 = the body did not move since the last step; two such bodies have the contacts that they
+    /// had
     /// @param contacts sorted by (a, b)
-    void recall(const BodyStorage& bodies, std::span<Contact> contacts, const Executor& executor) const;
+    void recall(const BodyStorage& bodies, std::span<const std::uint8_t> still, std::span<Contact> contacts,
+                const Executor& executor) const;
     /// Replaces the memory. @param contacts sorted by (a, b), with the impulses they ended with
     void store(const BodyStorage& bodies, std::span<const Contact> contacts, const Executor& executor);
     /// Forgets the contacts of a slot, whose body is removed.

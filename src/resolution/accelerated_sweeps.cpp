@@ -51,10 +51,6 @@ class AcceleratedSweepsResolution final : public Resolution {
 
     ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
                              const ResolutionSettings& settings, const Executor& executor) override {
-        if (isAtSleep(batch, contacts, bodies)) {
-            for (const std::uint32_t i : batch.contacts) contacts[i].impulse += contacts[i].last_impulse;
-            return {};
-        }
         begin(batch, contacts, bodies, settings, executor);
         ResolutionCounts counts;
         counts.global_iterations = sweepUntilSteady(settings, executor);
@@ -65,18 +61,6 @@ class AcceleratedSweepsResolution final : public Resolution {
     }
 
   private:
-    /// Whether nothing of the batch moves or may move: its contacts go on with the impulses that they had.
-    static bool isAtSleep(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
-        if (!batch.joints.empty()) return false;
-        const auto rests = [&](BodyIndex i) { return bodies.v[i].isZero(0) && bodies.w[i].isZero(0); };
-        const auto sleeps = [&](BodyIndex i) { return bodies.asleep[i] != 0 && rests(i); };
-        if (!std::ranges::all_of(batch.bodies, sleeps)) return false;
-        return std::ranges::all_of(batch.contacts, [&](std::uint32_t i) {
-            const Contact& contact = contacts[i];
-            return (!bodies.isFixed(contact.a) || rests(contact.a)) && (!bodies.isFixed(contact.b) || rests(contact.b));
-        });
-    }
-
     /// @return contacts visited
     std::int64_t sweepUntilSteady(const ResolutionSettings& settings, const Executor& executor) {
         const std::int64_t limit = sweepLimit(settings);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "resolution/symmetric3.h"
+
 namespace cairn {
 
 namespace {
@@ -10,13 +12,12 @@ namespace {
 /// Part of the energy that rounding may add.
 constexpr double rounding = 1e-12;
 
-/// A kinetic energy, and what part s of a change of velocities adds to it: s·linear + s²·quadratic [J].
+/// What part s of a change of velocities adds to the kinetic energy: s·linear + s²·quadratic [J].
 struct Gain {
-    double before = 0;
     double linear = 0;
     double quadratic = 0;
 
-    bool isAboveRounding() const { return linear + quadratic > rounding * before; }
+    double whole() const { return linear + quadratic; }
     /// The part above 0 that adds nothing, or 0.
     double neutralPart() const { return std::max(-linear / quadratic, 0.0); }
 };
@@ -33,14 +34,17 @@ class EnergyBound final : public Resolution {
         before_.clear();
         for (const BodyIndex i : batch.bodies) before_.push_back({bodies.v[i], bodies.w[i]});
         ResolutionCounts counts = resolution_->resolve(batch, contacts, bodies, settings, executor);
-        if (gainOf(batch, bodies).isAboveRounding() && hasHistory(batch, contacts)) {
+        Gain gain = gainOf(batch, bodies);
+        if (!isAboveRounding(gain, batch, bodies)) return counts;
+        if (hasHistory(batch, contacts)) {
             keepPart(0, batch, contacts, bodies);
             for (const std::uint32_t i : batch.contacts) contacts[i].last_impulse.setZero();
             const ResolutionCounts again = resolution_->resolve(batch, contacts, bodies, settings, executor);
             counts.global_iterations += again.global_iterations;
+            gain = gainOf(batch, bodies);
+            if (!isAboveRounding(gain, batch, bodies)) return counts;
         }
-        const Gain gain = gainOf(batch, bodies);
-        if (gain.isAboveRounding()) keepPart(gain.neutralPart(), batch, contacts, bodies);
+        keepPart(gain.neutralPart(), batch, contacts, bodies);
         return counts;
     }
 
@@ -73,13 +77,23 @@ class EnergyBound final : public Resolution {
             const Vec3 dv = bodies.v[i] - before.v;
             const Vec3 dw = bodies.w[i] - before.w;
             const double mass = 1 / bodies.mass_inv[i];
-            const Mat3 inertia = bodies.inertiaInv_W[i].inverse();
-            const Vec3 turned = inertia * dw;
-            gain.before += 0.5 * (mass * before.v.squaredNorm() + before.w.dot(inertia * before.w));
+            const Vec3 turned = inverse(Symmetric3::from(bodies.inertiaInv_W[i])) * dw;
             gain.linear += mass * before.v.dot(dv) + before.w.dot(turned);
             gain.quadratic += 0.5 * (mass * dv.squaredNorm() + dw.dot(turned));
         }
         return gain;
+    }
+
+    bool isAboveRounding(const Gain& gain, const BatchView& batch, const BodyState& bodies) const {
+        if (!(gain.whole() > 0)) return false;
+        double energy = 0;
+        for (std::size_t n = 0; n < batch.bodies.size(); ++n) {
+            const BodyIndex i = batch.bodies[n];
+            const Velocities& before = before_[n];
+            const Vec3 spin = inverse(Symmetric3::from(bodies.inertiaInv_W[i])) * before.w;
+            energy += 0.5 * (before.v.squaredNorm() / bodies.mass_inv[i] + before.w.dot(spin));
+        }
+        return gain.whole() > rounding * energy;
     }
 
     void keepPart(double part, const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies) const {

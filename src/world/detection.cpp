@@ -11,15 +11,33 @@ namespace {
 /// Fewest pairs worth a thread of their own.
 constexpr std::size_t pair_grain = 32;
 
-void findBounds(const BodyStorage& bodies, double margin, const Executor& executor, std::vector<Bounds>& bounds) {
-    bounds.resize(bodies.slots());
+/// Compares every body with its place at the last detection, and notes where it is now.
+void findStill(const BodyStorage& bodies, double margin, const Executor& executor, StillBodies& still) {
+    if (margin != still.margin) still.places.clear();
+    still.margin = margin;
+    still.places.resize(bodies.slots());
+    still.still.resize(bodies.slots());
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
-            if (bodies.kind[i] == BodyKind::hole) continue;
+            StillBodies::Place& place = still.places[i];
+            const bool same = place.known && place.generation == bodies.generation[i] &&
+                              place.position == bodies.position[i] &&
+                              place.orientation.coeffs() == bodies.orientation[i].coeffs();
+            still.still[i] = same ? 1 : 0;
+            place = {bodies.position[i], bodies.orientation[i], bodies.generation[i], true};
+        }
+    });
+}
+
+void findBounds(const BodyStorage& bodies, double margin, const Executor& executor, StepData& data) {
+    data.bounds.resize(bodies.slots());
+    executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
+        for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
+            if (bodies.kind[i] == BodyKind::hole || data.still.still[i] != 0) continue;
             Bounds grown = boundsOf(bodies.shape[i], bodies.shapePose(i));
             grown.lower.array() -= margin;
             grown.upper.array() += margin;
-            bounds[i] = grown;
+            data.bounds[i] = grown;
         }
     });
 }
@@ -44,10 +62,23 @@ bool mergeInto(std::span<Contact> others, const Vec3& point, const Vec3& normal,
     return false;
 }
 
+Contact contactOf(const BodyPair& pair, const Vec3& point, const Vec3& normal, double distance,
+                  const PairProperties& properties) {
+    return {.a = pair.a,
+            .b = pair.b,
+            .point = point,
+            .normal = normal,
+            .distance = distance,
+            .restitution = properties.restitution,
+            .static_friction = properties.static_friction,
+            .kinetic_friction = properties.kinetic_friction,
+            .rolling_friction = properties.rolling_friction,
+            .spinning_friction = properties.spinning_friction};
+}
+
 /// Appends the contacts of one pair.
-void collidePair(const BodyStorage& bodies, const MaterialTable& materials, const BodyPair& pair, double margin,
+void collidePair(const BodyStorage& bodies, const BodyPair& pair, const PairProperties& properties, double margin,
                  Manifold& manifold, std::vector<Contact>& contacts) {
-    const PairProperties& properties = materials.pair(bodies.material[pair.a], bodies.material[pair.b]);
     const std::size_t first = contacts.size();
     const double reach = same_place * std::min(bodies.r_max[pair.a], bodies.r_max[pair.b]);
     const auto add = [&](const Manifold& found) {
@@ -56,21 +87,38 @@ void collidePair(const BodyStorage& bodies, const MaterialTable& materials, cons
         for (std::size_t k = 0; k < found.size; ++k) {
             const auto& [point, distance] = found.points[k];
             if (mergeInto(std::span(contacts).subspan(first, earlier), point, found.normal, distance, reach)) continue;
-            contacts.push_back({.a = pair.a,
-                                .b = pair.b,
-                                .point = point,
-                                .normal = found.normal,
-                                .distance = distance,
-                                .restitution = properties.restitution,
-                                .static_friction = properties.static_friction,
-                                .kinetic_friction = properties.kinetic_friction,
-                                .rolling_friction = properties.rolling_friction,
-                                .spinning_friction = properties.spinning_friction});
+            contacts.push_back(contactOf(pair, point, found.normal, distance, properties));
         }
     };
     forEachManifold(bodies.shape[pair.a], bodies.shapePose(pair.a), bodies.shape[pair.b], bodies.shapePose(pair.b),
                     margin, manifold, add);
 }
+
+bool isBefore(const Contact& contact, const BodyPair& pair) {
+    return contact.a < pair.a || (contact.a == pair.a && contact.b < pair.b);
+}
+
+/// The contacts of the last step, pair by pair.
+class LastContacts {
+  public:
+    /// @param pair the first that will be asked for
+    LastContacts(std::span<const Contact> contacts, const BodyPair& pair) : contacts_(contacts) {
+        next_ = static_cast<std::size_t>(
+            std::ranges::partition_point(contacts, [&](const Contact& c) { return isBefore(c, pair); }) -
+            contacts.begin());
+    }
+    /// @param pair not below the one asked for before
+    std::span<const Contact> of(const BodyPair& pair) {
+        while (next_ < contacts_.size() && isBefore(contacts_[next_], pair)) ++next_;
+        std::size_t end = next_;
+        while (end < contacts_.size() && contacts_[end].a == pair.a && contacts_[end].b == pair.b) ++end;
+        return contacts_.subspan(next_, end - next_);
+    }
+
+  private:
+    std::span<const Contact> contacts_;
+    std::size_t next_;
+};
 
 /// Whether joints keep two bodies from touching. @param excluded sorted
 bool isExcluded(std::span<const BodyPair> excluded, const BodyPair& pair) {
@@ -82,7 +130,8 @@ bool isExcluded(std::span<const BodyPair> excluded, const BodyPair& pair) {
 
 void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, BroadPhase& broad_phase, double margin,
                     const Executor& executor, StepData& data) {
-    findBounds(bodies, margin, executor, data.bounds);
+    findStill(bodies, margin, executor, data.still);
+    findBounds(bodies, margin, executor, data);
     broad_phase.findPairs({.kind = bodies.kind, .bounds = data.bounds}, executor, data.pairs);
 
     data.thread_contacts.resize(static_cast<std::size_t>(executor.threads()));
@@ -90,11 +139,21 @@ void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, B
     executor.forBlocks(
         data.pairs.size(),
         [&](std::size_t begin, std::size_t end, int thread) {
+            if (begin == end) return;
             Manifold manifold;
+            LastContacts last_contacts(data.contacts, data.pairs[begin]);
             auto& contacts = data.thread_contacts[static_cast<std::size_t>(thread)];
             for (std::size_t i = begin; i < end; ++i) {
-                if (isExcluded(data.excluded, data.pairs[i])) continue;
-                collidePair(bodies, materials, data.pairs[i], margin, manifold, contacts);
+                const BodyPair& pair = data.pairs[i];
+                if (isExcluded(data.excluded, pair)) continue;
+                const PairProperties& properties = materials.pair(bodies.material[pair.a], bodies.material[pair.b]);
+                const auto last =
+                    data.still.areStill(pair.a, pair.b) ? last_contacts.of(pair) : std::span<const Contact>();
+                // Without one the pair is tested again: joints may have kept it apart.
+                if (last.empty()) collidePair(bodies, pair, properties, margin, manifold, contacts);
+                for (const Contact& c : last) {
+                    contacts.push_back(contactOf(pair, c.point, c.normal, c.distance, properties));
+                }
             }
         },
         pair_grain);
@@ -102,6 +161,13 @@ void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, B
     data.contacts.clear();
     for (const auto& contacts : data.thread_contacts) {
         data.contacts.insert(data.contacts.end(), contacts.begin(), contacts.end());
+    }
+}
+
+void forgetDisplaced(const BodyStorage& bodies, StillBodies& still) {
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        StillBodies::Place& place = still.places[i];
+        place.known = place.known && place.position == bodies.position[i];
     }
 }
 

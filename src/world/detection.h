@@ -5,8 +5,13 @@
 
 namespace cairn {
 
-/// Finds all contacts of the bodies where they are now. @param margin [m]
+/// Finds all contacts of the bodies where they are now. Pairs that did not move since the last detection keep those
+/// that they had. @param margin [m]
 void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, BroadPhase& broad_phase, double margin,
                     const Executor& executor, StepData& data);
+
+/// Bodies that were displaced after the detection have contacts that changed with them: they are found anew next time,
+/// wherever the bodies are then.
+void forgetDisplaced(const BodyStorage& bodies, StillBodies& still);
 
 }  // namespace cairn

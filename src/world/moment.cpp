@@ -71,6 +71,7 @@ void loadMoment(const MomentState& moment, WorldState& world) {
     world.events.events = moment.events;
     // What the last step left for viewers is that of another step.
     world.data.bounds.clear();
+    world.data.still.places.clear();
     world.trace.correction.clear();
     world.trace.shock_stage.clear();
 }

@@ -85,6 +85,7 @@ void correctStage(WorldState& world) {
         data.correction_counts[t].uncorrected += counts.uncorrected;
         data.correction_counts[t].displaced += counts.displaced;
     });
+    forgetDisplaced(world.bodies, data.still);
     if (!traced) return;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         world.trace.correction[i] = bodies.position[i] - world.trace.correction[i];
@@ -126,7 +127,7 @@ void resolveStage(WorldState& world) {
         bodies.shock_stage = world.trace.shock_stage;
     }
     const bool remembers = world.settings.resolution.resolution == ResolutionKind::accelerated_sweeps;
-    if (remembers) world.memory.recall(world.bodies, data.contacts, world.executor);
+    if (remembers) world.memory.recall(world.bodies, data.still.still, data.contacts, world.executor);
     buildJointBlocks(world);
     data.resolution_counts.assign(world.resolutions.size(), {});
     const auto resolve = [&](std::uint32_t batch, int thread, const Executor& executor) {

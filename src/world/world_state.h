@@ -48,10 +48,27 @@ struct MeasuredData {
     std::vector<Vec3> w;  ///< [slots] at the last point [rad/s, W]
 };
 
+/// Which bodies did not move between two detections: contacts of two such bodies are what they were.
+struct StillBodies {
+    /// Where a body was.
+    struct Place {
+        Vec3 position = Vec3::Zero();
+        Quat orientation = Quat::Identity();
+        std::uint32_t generation = 0;
+        bool known = false;
+    };
+    std::vector<Place> places;        ///< [slots] at the last detection
+    std::vector<std::uint8_t> still;  ///< [slots] 1 = at the same place as at the detection before
+    double margin = 0;                ///< contact margin of the last detection [m]
+
+    bool areStill(BodyIndex a, BodyIndex b) const { return (still[a] & still[b]) != 0; }
+};
+
 /// The arrays that one stage leaves to the next; nothing else travels between stages. Named with their producer.
 struct StepData {
     std::vector<Bounds> bounds;                         ///< detection: [slots] grown by the contact margin [m, W]
     std::vector<BodyPair> pairs;                        ///< detection: near pairs, sorted
+    StillBodies still;                                  ///< detection: which bodies are where they were
     std::vector<std::vector<Contact>> thread_contacts;  ///< detection: [threads], joined into contacts
     std::vector<Contact> contacts;        ///< detection, changed by correction and resolution: sorted by (a, b)
     ContactsOfBodies contacts_of;         ///< batches: [slots] contact indices

@@ -8,6 +8,7 @@ namespace cairn {
 namespace {
 
 const Executor one_thread(1);
+const std::vector<std::uint8_t> all_moved(2000, 0);
 
 /// Three bodies of radius 1 at (0, 0, 0), (2, 0, 0) and (4, 0, 0).
 BodyStorage threeBodies() {
@@ -29,7 +30,7 @@ TEST(ContactMemory, ANewContactHasNoImpulse) {
     std::vector<Contact> contacts = {contactAt(0, 1, Vec3(1, 0, 0))};
     contacts[0].last_impulse = Vec3::Ones();
     ContactMemory memory;
-    memory.recall(bodies, contacts, one_thread);
+    memory.recall(bodies, all_moved, contacts, one_thread);
     EXPECT_EQ(contacts[0].last_impulse, Vec3::Zero());
 }
 
@@ -48,10 +49,22 @@ TEST(ContactMemory, ContactsAreRecognisedByTheirPlaceAlsoOnTurnedAndMovedBodies)
     }
     std::vector<Contact> now = {contactAt(0, 1, Vec3(1, -0.3, 5)), contactAt(0, 1, Vec3(1, 0.3, 5)),
                                 contactAt(1, 2, Vec3(3, 0, 5))};
-    memory.recall(bodies, now, one_thread);
+    memory.recall(bodies, all_moved, now, one_thread);
     EXPECT_EQ(now[0].last_impulse.x(), 1);
     EXPECT_EQ(now[1].last_impulse.x(), 2);
     EXPECT_EQ(now[2].last_impulse.x(), 3);
+}
+
+TEST(ContactMemory, BodiesThatDidNotMoveKeepTheImpulsesInTheirOrder) {
+    const BodyStorage bodies = threeBodies();
+    ContactMemory memory;
+    const std::vector last = {contactAt(0, 1, Vec3(1, 0.3, 0), Vec3(1, 0, 0)),
+                              contactAt(0, 1, Vec3(1, -0.3, 0), Vec3(2, 0, 0)),
+                              contactAt(1, 2, Vec3(3, 0, 0), Vec3(3, 0, 0))};
+    memory.store(bodies, last, one_thread);
+    std::vector<Contact> now = last;
+    memory.recall(bodies, std::vector<std::uint8_t>{1, 1, 0}, now, one_thread);
+    for (std::size_t i = 0; i < now.size(); ++i) EXPECT_EQ(now[i].last_impulse, last[i].impulse);
 }
 
 TEST(ContactMemory, AnImpulseIsNeverGivenTwiceAndMergedPointsKeepTheSum) {
@@ -59,13 +72,13 @@ TEST(ContactMemory, AnImpulseIsNeverGivenTwiceAndMergedPointsKeepTheSum) {
     ContactMemory memory;
     memory.store(bodies, std::vector{contactAt(0, 1, Vec3(1, 0, 0), Vec3(1, 0, 0))}, one_thread);
     std::vector<Contact> split = {contactAt(0, 1, Vec3(1, 0.01, 0)), contactAt(0, 1, Vec3(1, -0.02, 0))};
-    memory.recall(bodies, split, one_thread);
+    memory.recall(bodies, all_moved, split, one_thread);
     EXPECT_EQ(split[0].last_impulse.x() + split[1].last_impulse.x(), 1);
     split[0].impulse = Vec3(4, 0, 0);
     split[1].impulse = Vec3(5, 0, 0);
     memory.store(bodies, split, one_thread);
     std::vector<Contact> merged = {contactAt(0, 1, Vec3(1, 0, 0))};
-    memory.recall(bodies, merged, one_thread);
+    memory.recall(bodies, all_moved, merged, one_thread);
     EXPECT_EQ(merged[0].last_impulse.x(), 9);
 }
 
@@ -77,11 +90,11 @@ TEST(ContactMemory, FarPointsAndForgottenBodiesGiveNothing) {
         std::vector{contactAt(0, 1, Vec3(1, 0, 0), Vec3(1, 0, 0)), contactAt(1, 2, Vec3(3, 0, 0), Vec3(1, 0, 0))},
         one_thread);
     std::vector<Contact> far = {contactAt(0, 1, Vec3(1, 0.5, 0))};
-    memory.recall(bodies, far, one_thread);
+    memory.recall(bodies, all_moved, far, one_thread);
     EXPECT_EQ(far[0].last_impulse, Vec3::Zero());
     memory.forget(0);
     std::vector<Contact> now = {contactAt(0, 1, Vec3(1, 0, 0)), contactAt(1, 2, Vec3(3, 0, 0))};
-    memory.recall(bodies, now, one_thread);
+    memory.recall(bodies, all_moved, now, one_thread);
     EXPECT_EQ(now[0].last_impulse, Vec3::Zero());
     EXPECT_EQ(now[1].last_impulse.x(), 1);
 }
@@ -102,7 +115,7 @@ TEST(ContactMemory, RecallsTheSameOnAnyNumberOfThreads) {
     memory.store(bodies, contacts, Executor(3));
     for (const int threads : {1, 2, 3, 8}) {
         std::vector<Contact> now = contacts;
-        memory.recall(bodies, now, Executor(threads));
+        memory.recall(bodies, all_moved, now, Executor(threads));
         for (std::size_t i = 0; i < now.size(); ++i) ASSERT_EQ(now[i].last_impulse, contacts[i].impulse) << i;
     }
 }
