@@ -1,6 +1,6 @@
 /** Charts over the simulated time, drawn on canvases: one sample per simulation step of 1/30 s. */
 import type { Sample } from '../model';
-import { stageHex } from '../view/palette';
+import { seriesHex, stageHex } from '../view/palette';
 import { niceAbove } from '../view/bodies';
 import { compact, h, significant } from './dom';
 
@@ -74,7 +74,7 @@ class Chart {
     context.restore();
     if (this.plan.line) {
       const at = Math.round(y(this.plan.line.value)) + 0.5;
-      context.strokeStyle = context.fillStyle = '#d55e00';
+      context.strokeStyle = context.fillStyle = style.color;
       context.setLineDash([5, 3]);
       line(context, left, at, width - 6, at);
       context.setLineDash([]);
@@ -177,6 +177,7 @@ export class Charts {
   /** @param fields names of the numbers of a sample @param stages names of the stages of a time step */
   setFields(fields: string[], stages: string[]): void {
     const columns = new Map(fields.map((name, i) => [name, i]));
+    const [blue, orange, purple] = seriesHex;
     const plans: Plan[] = [
       {
         title: 'Time per simulation step', unit: 'ms', stacked: true, line: { value: 1000 / 30, label: 'real time: 33⅓ ms' },
@@ -184,24 +185,24 @@ export class Charts {
       },
       {
         title: 'Contacts and iterations', unit: '', stacked: false, series: [
-          { label: 'contacts', colour: '#0072b2', field: 'contacts' },
-          { label: 'iterations', colour: '#e69f00', field: 'global_iterations' },
-          { label: 'of shock propagation', colour: '#cc79a7', field: 'shock_iterations' },
+          { label: 'contacts', colour: blue, field: 'contacts' },
+          { label: 'iterations', colour: orange, field: 'global_iterations' },
+          { label: 'of shock propagation', colour: purple, field: 'shock_iterations' },
         ],
       },
       {
         title: 'Energy', unit: 'J', stacked: false, series: [
-          { label: 'kinetic', colour: '#d55e00', field: 'kinetic_energy' },
-          { label: 'potential', colour: '#0072b2', field: 'potential_energy' },
+          { label: 'kinetic', colour: orange, field: 'kinetic_energy' },
+          { label: 'potential', colour: blue, field: 'potential_energy' },
         ],
       },
       {
         title: 'Overlap', unit: 'mm', stacked: false, series: [
-          { label: 'largest', colour: '#d55e00', field: 'largest_overlap', scale: 1000 },
-          { label: 'mean', colour: '#56b4e9', field: 'mean_overlap', scale: 1000 },
+          { label: 'largest', colour: orange, field: 'largest_overlap', scale: 1000 },
+          { label: 'mean', colour: blue, field: 'mean_overlap', scale: 1000 },
         ],
       },
-      { title: 'Bodies asleep', unit: '', stacked: false, series: [{ label: 'asleep', colour: '#0072b2', field: 'asleep' }] },
+      { title: 'Bodies asleep', unit: '', stacked: false, series: [{ label: 'asleep', colour: blue, field: 'asleep' }] },
     ];
     this.charts = plans.map((plan) => new Chart(plan, columns));
     this.element.replaceChildren(

@@ -1,7 +1,6 @@
 /** Which layers are drawn, and what their colours mean. */
 import type { ColourMode, ViewOptions } from '../model';
-import { asleepHex, awakeHex, categoricalHex, fixedHex, sequentialCss } from '../view/palette';
-import { overlayHex } from '../view/overlays';
+import { asleepHex, awakeHex, fixedHex, noneHex, overlayHex, qualitativeHex, sequentialCss } from '../view/palette';
 import { h, quantity } from './dom';
 
 interface Choice<T> { key: T; label: string; hint: string; shortcut?: string; swatch?: string }
@@ -85,13 +84,13 @@ export function legendFor(mode: ColourMode, maximum: number): HTMLElement | null
   switch (mode) {
     case 'material': return null;
     case 'asleep': return h('div', {}, swatch(awakeHex, 'awake'), swatch(asleepHex, 'asleep'), swatch(fixedHex, 'fixed'));
-    case 'batch': return h('div', {}, h('span', { class: 'entry' }, 'One colour per batch'), swatch('#9aa0a8', 'no contacts'), swatch(fixedHex, 'fixed'));
+    case 'batch': return h('div', {}, h('span', { class: 'entry' }, 'One colour per batch'), swatch(noneHex, 'no contacts'), swatch(fixedHex, 'fixed'));
     case 'speed':
     case 'overlap':
       return h('div', {}, h('span', { class: 'entry' }, '0'), h('span', { class: 'ramp', style: `background:${sequentialCss}` }),
         h('span', { class: 'entry' }, mode === 'speed' ? quantity(maximum, 'm/s') : quantity(maximum, 'm')));
     case 'level':
     case 'stage':
-      return h('div', {}, ...[0, 1, 2, 3, 4].map((i) => swatch(categoricalHex(i), i === 4 ? '4 …' : String(i))), swatch('#9aa0a8', 'none'));
+      return h('div', {}, ...[0, 1, 2, 3, 4].map((i) => swatch(qualitativeHex[i], i === 4 ? '4 …' : String(i))), swatch(noneHex, 'none'));
   }
 }

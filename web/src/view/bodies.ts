@@ -1,26 +1,14 @@
-/** All bodies of a world as a few instanced meshes, one per kind of geometry. */
-import {
-  BoxGeometry, BufferGeometry, CapsuleGeometry, CylinderGeometry, Group, InstancedBufferAttribute, InstancedMesh, Matrix4, Quaternion,
-  SphereGeometry, Vector3, type Material,
-} from 'three';
+/** All bodies of a world as a few meshes: one per kind of geometry, or a single one for software rendering. */
+import { BoxGeometry, BufferGeometry, CapsuleGeometry, CylinderGeometry, Group, SphereGeometry } from 'three';
 import { asleep, fixed, present, type BodyInfo, type ColourMode, type Frame, type Roster, type ShapeInfo } from '../model';
-import { compoundGeometry, domeGeometry, hullGeometry } from './solids';
+import { InstancedBodies, MergedBodies, type BodyMesh } from './body_mesh';
+import { compoundGeometry, cornerGeometry, domeGeometry, hullGeometry } from './solids';
 import {
-  asleepColour, awakeColour, categorical, fixedColour, noneColour, qualitative, sequential, toLinear, type Rgb,
+  asleepColour, awakeColour, categorical, fixedColour, noneColour, paint, qualitative, sequential, type Rgb,
 } from './palette';
-import { patternOf, Surfaces } from './surface';
+import { Surfaces } from './surface';
 
 const none = 0xffffffff;
-const paintHex = ['#4f86b8', '#d9a441', '#4f9d86', '#c07aa8', '#b5553a', '#8a8f98'];
-const paint = paintHex.map(toLinear);
-
-interface Batch {
-  mesh: InstancedMesh;
-  slots: number[];
-  scale: Float32Array;
-  tint: InstancedBufferAttribute;
-  kind: InstancedBufferAttribute;
-}
 
 /** The numbers that the colours of a layer stand for. */
 export interface ColourRange { maximum: number }
@@ -29,16 +17,15 @@ export class Bodies {
   readonly group = new Group();
   readonly surfaces = new Surfaces();
   range: ColourRange = { maximum: 1 };
-  private batches: Batch[] = [];
+  private meshes: BodyMesh[] = [];
   private roster: Roster | null = null;
   private fine = true;
   private emphasised = new Map<number, number>();
 
   setRoster(roster: Roster): void {
-    for (const batch of this.batches) {
-      this.group.remove(batch.mesh);
-      batch.mesh.geometry.dispose();
-      batch.mesh.dispose();
+    for (const old of this.meshes) {
+      this.group.remove(old.mesh);
+      old.dispose();
     }
     this.roster = roster;
     const groups = new Map<string, BodyInfo[]>();
@@ -48,7 +35,9 @@ export class Bodies {
       const members = groups.get(key);
       if (members) members.push(body); else groups.set(key, [body]);
     }
-    this.batches = [...groups.values()].map((members) => this.makeBatch(members, roster));
+    this.meshes = this.fine ? this.makeInstanced(groups, roster) : this.makeMerged(groups, roster);
+    for (const { mesh } of this.meshes) this.group.add(mesh);
+    this.paintedMode = null;
     this.applyEmphasis();
   }
 
@@ -69,79 +58,46 @@ export class Bodies {
     this.surfaces.uniforms.uFlat.value = mode === 'material' ? 0 : 1;
     if (mode === 'speed' || mode === 'overlap') this.followRange(frame[mode], frame, mode);
     const colour: Rgb = [0, 0, 0];
-    for (const batch of this.batches) {
-      const matrices = batch.mesh.instanceMatrix.array;
-      const tints = batch.tint.array;
-      for (let i = 0; i < batch.slots.length; i++) {
-        const slot = batch.slots[i];
+    for (const drawn of this.meshes) {
+      drawn.bodies.forEach(({ slot }, i) => {
         if (slot >= frame.slots || !(frame.flags[slot] & present)) {
-          matrices.fill(0, 16 * i, 16 * i + 16);
-          continue;
+          drawn.hide(i);
+          return;
         }
-        compose(frame, slot, batch.scale, i, matrices as Float32Array);
-        if (mode === 'material') continue;
+        drawn.place(i, frame);
+        if (mode === 'material') return;
         this.colourOf(frame, slot, mode, colour);
-        tints[3 * i] = colour[0];
-        tints[3 * i + 1] = colour[1];
-        tints[3 * i + 2] = colour[2];
-      }
-      batch.mesh.instanceMatrix.needsUpdate = true;
-      if (mode !== 'material') batch.tint.needsUpdate = true;
+        drawn.tint(i, colour);
+      });
     }
     if (mode === 'material') this.paintMaterials();
+    this.paintedMode = mode;
+    for (const drawn of this.meshes) drawn.upload();
   }
 
   private paintedMode: ColourMode | null = null;
 
   private paintMaterials(): void {
-    if (this.paintedMode === 'material' || !this.roster) return;
-    for (const batch of this.batches) {
-      batch.slots.forEach((slot, i) => {
-        const body = this.roster!.bodies.get(slot);
-        batch.tint.set(paint[(body?.material ?? 0) % paint.length], 3 * i);
-      });
-      batch.tint.needsUpdate = true;
-    }
+    if (this.paintedMode === 'material') return;
+    for (const drawn of this.meshes) drawn.bodies.forEach((body, i) => drawn.tint(i, paint[body.material % paint.length]));
   }
 
-  private material(): Material {
-    return this.fine ? this.surfaces.fine : this.surfaces.plain;
+  private makeInstanced(groups: Map<string, BodyInfo[]>, { materials }: Roster): BodyMesh[] {
+    return [...groups.values()].map((bodies) =>
+      new InstancedBodies(bodies, materials, makeGeometry(bodies[0], fineness(bodies.length)), this.surfaces));
   }
 
-  private makeBatch(members: BodyInfo[], roster: Roster): Batch {
-    const count = members.length;
-    const geometry = makeGeometry(members[0], this.fine ? fineness(count) : coarseness(count));
-    const scale = new Float32Array(3 * count);
-    const kinds = new Float32Array(3 * count);
-    const halves = new Float32Array(3 * count);
-    members.forEach((body, i) => {
-      const half = halfExtents(body);
-      scale.set(half, 3 * i);
-      halves.set(half, 3 * i);
-      if (body.shape.type !== 'box') halves[3 * i] *= -1;
-      if (body.shape.type === 'sphere') halves[3 * i + 1] *= -1;
-      const name = roster.materials[body.material]?.name ?? '';
-      kinds.set([patternOf(name), ((body.slot * 0.6180339887) % 1), 0], 3 * i);
-    });
-    const tint = new InstancedBufferAttribute(new Float32Array(3 * count), 3);
-    const kind = new InstancedBufferAttribute(kinds, 3);
-    geometry.setAttribute('aTint', tint);
-    geometry.setAttribute('aKind', kind);
-    geometry.setAttribute('aHalf', new InstancedBufferAttribute(halves, 3));
-    const mesh = new InstancedMesh(geometry, this.material(), count);
-    mesh.frustumCulled = false;
-    if (members[0].shape.type === 'sphere') mesh.customDepthMaterial = this.surfaces.ballDepth;
-    mesh.castShadow = true;
-    mesh.receiveShadow = true;
-    this.group.add(mesh);
-    this.paintedMode = null;
-    return { mesh, slots: members.map((body) => body.slot), scale, tint, kind };
+  private makeMerged(groups: Map<string, BodyInfo[]>, { materials }: Roster): BodyMesh[] {
+    const geometries = new Map([...groups].map(([key, bodies]) => [key, bodies[0].shape.type === 'box' ? cornerGeometry()
+      : makeGeometry(bodies[0], coarseness(bodies.length))]));
+    const all = [...groups.values()].flat();
+    return [new MergedBodies(all, materials, (body) => geometries.get(geometryKey(body))!, this.surfaces)];
   }
 
   private applyEmphasis(): void {
-    for (const batch of this.batches) {
-      batch.slots.forEach((slot, i) => batch.kind.setZ(i, this.emphasised.get(slot) ?? 0));
-      batch.kind.needsUpdate = true;
+    for (const drawn of this.meshes) {
+      drawn.bodies.forEach(({ slot }, i) => drawn.emphasise(i, this.emphasised.get(slot) ?? 0));
+      drawn.upload();
     }
   }
 
@@ -188,13 +144,6 @@ function geometryKey({ shape }: BodyInfo): string {
   return shape.type === 'capsule' || shape.type === 'hull' || shape.type === 'compound' ? JSON.stringify(shape) : shape.type;
 }
 
-function halfExtents({ shape }: BodyInfo): [number, number, number] {
-  if (shape.type === 'cylinder') return [shape.radius, shape.radius, shape.length / 2];
-  if (shape.type === 'box') return shape.size.map((edge) => edge / 2) as [number, number, number];
-  if (shape.type === 'sphere') return [shape.radius, shape.radius, shape.radius];
-  return [1, 1, 1];
-}
-
 /** Segments around a round body and from pole to pole. */
 type Fineness = [number, number];
 
@@ -205,7 +154,7 @@ function fineness(count: number): Fineness {
 
 /** Software rendering takes its time for triangles. */
 function coarseness(count: number): Fineness {
-  return count > 1000 ? [8, 4] : count > 100 ? [12, 4] : [24, 8];
+  return count > 1000 ? [8, 2] : count > 100 ? [12, 4] : [24, 8];
 }
 
 function makeGeometry({ shape }: BodyInfo, [around, along]: Fineness): BufferGeometry {
@@ -228,16 +177,4 @@ function makeGeometry({ shape }: BodyInfo, [around, along]: Fineness): BufferGeo
     case 'cylinder': return actual({ type: 'cylinder', radius: 1, length: 2 });
     default: return actual(shape);
   }
-}
-
-const position = new Vector3();
-const orientation = new Quaternion();
-const extent = new Vector3();
-const matrix = new Matrix4();
-
-function compose(frame: Frame, slot: number, scale: Float32Array, i: number, out: Float32Array): void {
-  position.fromArray(frame.position, 3 * slot);
-  orientation.fromArray(frame.orientation, 4 * slot);
-  extent.fromArray(scale, 3 * i);
-  matrix.compose(position, orientation, extent).toArray(out, 16 * i);
 }

@@ -4,13 +4,8 @@ import {
   Vector3,
 } from 'three';
 import { distanceJoint, hingeJoint, noSlot, present, ropeJoint, sliderJoint, type BodyInfo, type Frame, type Joints, type ViewOptions } from '../model';
+import { overlayHex } from './palette';
 import { boxOf } from './solids';
-
-/** Colours of the overlays, also for the legend. */
-export const overlayHex = {
-  points: '#d55e00', normals: '#0072b2', impulses: '#009e73', friction: '#cc79a7', moves: '#e69f00', bounds: '#7d8590',
-  springs: '#e69f00', joints: '#9561c9', outline: '#2f9bff',
-};
 
 /** Line segments that grow with their number. */
 class Segments {
@@ -66,7 +61,7 @@ export class Overlays {
     friction: new Segments(overlayHex.friction, false),
     moves: new Segments(overlayHex.moves, false),
     bounds: new Segments(overlayHex.bounds, true),
-    springs: new Segments(overlayHex.springs, false),
+    springs: new Segments(overlayHex.moves, false),
     joints: new Segments(overlayHex.joints, false),
     outline: new Segments(overlayHex.outline, false),
   };

@@ -3,27 +3,38 @@ import { Color } from 'three';
 
 export type Rgb = [number, number, number];
 
-/** Okabe and Ito's set, with lighter and darker tints of it, for things that have no order. */
-const qualitativeHex = [
-  '#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9', '#d55e00', '#b8a800', '#7a5195', '#5ba98a', '#a3683b',
-  '#4a7fc1', '#c9a26b',
-];
+/**
+ * For things that have no order. Like all sets here, near Okabe and Ito's hues, moved until any two differ by 19 or more in
+ * CIELAB to people with any kind of colour vision; tests/view/palette.cjs holds them to it.
+ */
+export const qualitativeHex = ['#607bc2', '#e8a002', '#22a275', '#794583', '#60c3fd', '#d25c01', '#e6da68', '#40409c'];
 /** For quantities: blue over grey to yellow like cividis, but no darker than shaded bodies can bear. */
-const sequentialHex = ['#2b5fae', '#4c78b4', '#6f8fb4', '#93a3a9', '#b5b08c', '#d5bf63', '#f4d838'];
+export const sequentialHex = ['#2455a8', '#4874b4', '#6d8eb5', '#93a3a9', '#b6b18b', '#d8c25f', '#fae03c'];
+/** Of materials without a pattern of their own. */
+export const paintHex = ['#4477a8', '#d9a441', '#6db392', '#d19ed1', '#b5553a', '#79838f'];
 
 export const qualitative: Rgb[] = qualitativeHex.map(toLinear);
 const sequentialColours: Rgb[] = sequentialHex.map(toLinear);
 export const sequentialCss = `linear-gradient(90deg, ${sequentialHex.join(', ')})`;
 export const awakeHex = '#e69f00';
-export const asleepHex = '#3f6f9f';
-export const fixedHex = '#8b9098';
+export const asleepHex = '#2f6fbf';
+export const fixedHex = '#666b72';
+export const noneHex = '#a9afb7';
 export const awakeColour = toLinear(awakeHex);
 export const asleepColour = toLinear(asleepHex);
 export const fixedColour = toLinear(fixedHex);
-export const noneColour = toLinear('#9aa0a8');
+export const noneColour = toLinear(noneHex);
+export const paint: Rgb[] = paintHex.map(toLinear);
 
-/** For the stages of the time step, in their order; neighbours differ in lightness. */
-export const stageHex = ['#9aa0a8', '#56b4e9', '#0072b2', '#7a5195', '#e69f00', '#5ba98a', '#d55e00', '#cc79a7', '#b8a800'];
+/** For the stages of the time step, in their order; neighbours differ most. */
+export const stageHex = ['#c0c5c9', '#5db9ef', '#0d73b4', '#6d3c67', '#e7a002', '#73ae86', '#d15c00', '#c172a1', '#e6da68'];
+/** For up to three lines of a chart. */
+export const seriesHex = ['#0983cf', '#e69f00', '#a14278'];
+/** For what is drawn over the bodies. */
+export const overlayHex = {
+  points: '#d45d00', normals: '#17639f', impulses: '#18986a', friction: '#de96cb', moves: '#eba208', bounds: '#78828d',
+  joints: '#7941c8', outline: '#2eb0ff',
+};
 
 export function toLinear(hex: string): Rgb {
   const c = new Color(hex);
@@ -35,10 +46,6 @@ export function categorical(index: number): Rgb {
   let h = Math.imul(index ^ 0x9e3779b9, 0x85ebca6b);
   h ^= h >>> 13;
   return qualitative[(h >>> 0) % qualitative.length];
-}
-
-export function categoricalHex(index: number): string {
-  return qualitativeHex[index % qualitativeHex.length];
 }
 
 /** @param part 0 to 1 */

@@ -26,6 +26,27 @@ export function domeGeometry(around: number, rings: number): BufferGeometry {
   return geometry;
 }
 
+/** Three faces of a box of ±1; the vertex shader turns each to the camera, so that the other three are never missed. */
+export function cornerGeometry(): BufferGeometry {
+  const points: number[] = [], normals: number[] = [], triangles: number[] = [];
+  for (let axis = 0; axis < 3; axis++) {
+    const first = points.length / 3;
+    for (const [u, v] of [[-1, -1], [1, -1], [1, 1], [-1, 1]]) {
+      const point = [1, u, v], normal = [1, 0, 0];
+      for (let k = 0; k < 3; k++) {
+        points.push(point[(k + 3 - axis) % 3]);
+        normals.push(normal[(k + 3 - axis) % 3]);
+      }
+    }
+    triangles.push(first, first + 1, first + 2, first, first + 2, first + 3);
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new Float32BufferAttribute(points, 3));
+  geometry.setAttribute('normal', new Float32BufferAttribute(normals, 3));
+  geometry.setIndex(triangles);
+  return geometry;
+}
+
 const vectors = (points: number[][]): Vector3[] => points.map(([x, y, z]) => new Vector3(x, y, z));
 
 export function hullGeometry(points: number[][]): BufferGeometry {

@@ -13,8 +13,8 @@ interface QualityPlan { pixels: number; fine: boolean; soft: boolean; shadow: nu
 const plans: Record<Quality, QualityPlan> = {
   high: { pixels: 2, fine: true, soft: true, shadow: 2048, shadowEvery: 1 },
   medium: { pixels: 1, fine: true, soft: true, shadow: 1024, shadowEvery: 1 },
-  low: { pixels: 0.8, fine: false, soft: false, shadow: 1024, shadowEvery: 3 },
-  lowest: { pixels: 0.5, fine: false, soft: false, shadow: 512, shadowEvery: 6 },
+  low: { pixels: 0.8, fine: false, soft: false, shadow: 1024, shadowEvery: 1 },
+  lowest: { pixels: 0.5, fine: false, soft: false, shadow: 512, shadowEvery: 2 },
 };
 const order: Quality[] = ['high', 'medium', 'low', 'lowest'];
 /** without a new picture for so long nothing moves any more [ms] */

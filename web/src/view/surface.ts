@@ -1,7 +1,7 @@
 /** The surface of bodies: oak, iron and granite made of noise, or a flat colour of a layer. */
 import {
   Data3DTexture, LinearFilter, MeshDepthMaterial, MeshLambertMaterial, MeshStandardMaterial, RedFormat, RepeatWrapping, RGBADepthPacking,
-  type WebGLProgramParametersWithUniforms,
+  type Material, type Texture, type WebGLProgramParametersWithUniforms,
 } from 'three';
 
 /** Which pattern a material gets; anything unknown is painted. */
@@ -38,31 +38,38 @@ function makeNoise(): Data3DTexture {
   return texture;
 }
 
-const vertexHead = /* glsl */ `
-attribute vec3 aTint;
-attribute vec3 aKind; // pattern, seed, emphasis
-attribute vec3 aHalf; // half extents of a box [m]; a negative x marks a round body, a negative y as well a ball
+const varyings = /* glsl */ `
 varying vec3 vTint;
-varying vec3 vKind;
-varying vec3 vHalf;
+varying vec3 vKind; // pattern, seed, emphasis
+varying vec3 vHalf; // half extents of a box [m]; a negative x marks a round body, a negative y as well a ball
 varying vec3 vInner; // [m, B]
-vec3 onSurface; // of the unit shape
 `;
-/** Turns the half that a ball is drawn as: in W along an axis, given in B. */
+/** Turns the half that a ball is drawn as to a direction, both in B. */
 const turnDome = /* glsl */ `
 vec3 turnDome(vec3 p, vec3 axis) {
   vec3 x = normalize(cross(abs(axis.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0), axis));
-  vec3 w = p.x * x + p.y * cross(axis, x) + p.z * axis;
-  return (transpose(mat3(instanceMatrix)) * w) / max(length(instanceMatrix[0].xyz), 1e-9);
+  return p.x * x + p.y * cross(axis, x) + p.z * axis;
 }
 `;
-const vertexNormal = /* glsl */ `
+/** Away from the sun, in W: shadows are cast by the half that it does not see. */
+const shadeward = '-vec3(viewMatrix[0][2], viewMatrix[1][2], viewMatrix[2][2])';
+/** From W to B, for balls. */
+const intoBall = (direction: string): string => `normalize(transpose(mat3(instanceMatrix)) * (${direction}))`;
+const instancedHead = /* glsl */ `
+attribute vec3 aTint;
+attribute vec3 aKind;
+attribute vec3 aHalf;
+${varyings}
+vec3 onSurface; // of the unit shape
+${turnDome}
+`;
+const instancedNormal = /* glsl */ `
 onSurface = position;
-if (aHalf.y < 0.0) onSurface = turnDome(position, normalize(cameraPosition - instanceMatrix[3].xyz));
+if (aHalf.y < 0.0) onSurface = turnDome(position, ${intoBall('cameraPosition - instanceMatrix[3].xyz')});
 #include <beginnormal_vertex>
 if (aHalf.y < 0.0) objectNormal = onSurface;
 `;
-const vertexBody = /* glsl */ `
+const instancedBody = /* glsl */ `
 #include <begin_vertex>
 transformed = onSurface;
 vTint = aTint;
@@ -70,13 +77,58 @@ vKind = aKind;
 vHalf = aHalf;
 vInner = onSurface * abs(aHalf);
 `;
+
+/** Of the texture with the state of merged bodies: the first body's texels stand below each other, the next one's to the right. */
+export const texelColumns = 256;
+/** position [m] and emphasis; orientation; tint, and 1 if it is there; half extents, and the pattern plus the seed */
+export const texelsPerBody = 4;
+const mergedHead = /* glsl */ `
+attribute float aBody;
+uniform highp sampler2D uBodies;
+${varyings}
+vec3 inner; // [m, B]
+vec3 outward; // normal, in B
+${turnDome}
+vec4 stateOf(int k) {
+  int body = int(aBody + 0.5);
+  return texelFetch(uBodies, ivec2(body % ${texelColumns}, (body / ${texelColumns}) * ${texelsPerBody} + k), 0);
+}
+vec3 turned(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
+// Balls and boxes have only the part that is seen from a direction, in B.
+void findSurface(vec3 point, vec3 normal, vec3 extents, vec3 towards) {
+  outward = normal;
+  if (extents.y < 0.0) {
+    point = outward = turnDome(point, normalize(towards));
+  } else if (extents.x > 0.0 && dot(normal, towards) < 0.0) {
+    vec3 other = normal.yzx;
+    point -= 2.0 * (dot(point, normal) * normal + dot(point, other) * other);
+    outward = -normal;
+  }
+  inner = point * abs(extents);
+}
+`;
+const mergedNormal = /* glsl */ `
+vec4 place = stateOf(0), turn = stateOf(1), tint = stateOf(2), form = stateOf(3);
+findSurface(position, normal, form.xyz, turned(turn * vec4(-1.0, -1.0, -1.0, 1.0), cameraPosition - place.xyz));
+vec3 objectNormal = turned(turn, outward);
+`;
+const mergedBody = /* glsl */ `
+vec3 transformed = place.xyz + tint.w * turned(turn, inner);
+vTint = tint.rgb;
+vKind = vec3(floor(form.w), fract(form.w), place.w);
+vHalf = form.xyz;
+vInner = inner;
+`;
+const mergedShade = /* glsl */ `
+vec4 place = stateOf(0), turn = stateOf(1), form = stateOf(3);
+findSurface(position, normal, form.xyz, turned(turn * vec4(-1.0, -1.0, -1.0, 1.0), ${shadeward}));
+vec3 transformed = place.xyz + stateOf(2).w * turned(turn, inner);
+`;
+
 const fragmentHead = /* glsl */ `
 uniform float uFlat;
 uniform highp sampler3D uNoise;
-varying vec3 vTint;
-varying vec3 vKind;
-varying vec3 vHalf;
-varying vec3 vInner;
+${varyings}
 float surfaceRoughness;
 float surfaceMetalness;
 float noiseAt(vec3 p) { return texture(uNoise, p * ${(1 / noiseSize).toFixed(6)}).r; }
@@ -135,32 +187,55 @@ const fragmentColour = /* glsl */ `
 diffuseColor.rgb = surfaceColour();
 `;
 
-function patch(shader: WebGLProgramParametersWithUniforms, uniforms: SurfaceUniforms): void {
-  Object.assign(shader.uniforms, uniforms);
-  shader.vertexShader = vertexHead + turnDome + shader.vertexShader
-    .replace('#include <beginnormal_vertex>', vertexNormal)
-    .replace('#include <begin_vertex>', vertexBody);
+type Shader = WebGLProgramParametersWithUniforms;
+
+function paintFragments(shader: Shader): void {
   shader.fragmentShader = fragmentHead + shader.fragmentShader
     .replace('#include <color_fragment>', fragmentColour)
     .replace('#include <roughnessmap_fragment>', 'float roughnessFactor = surfaceRoughness;')
     .replace('#include <metalnessmap_fragment>', 'float metalnessFactor = surfaceMetalness;');
 }
 
-/** The two materials of all bodies: a good one, and one that software rendering can afford. */
+/** The materials of all bodies: a good one for instances, and one for merged bodies that software rendering can afford. */
 export class Surfaces {
   readonly uniforms: SurfaceUniforms = { uFlat: { value: 0 }, uNoise: { value: makeNoise() } };
   readonly fine = new MeshStandardMaterial();
-  readonly plain = new MeshLambertMaterial();
   /** of the shadows of balls: the half that looks away from the sun, as of other bodies */
   readonly ballDepth = new MeshDepthMaterial({ depthPacking: RGBADepthPacking });
 
   constructor() {
-    for (const material of [this.fine, this.plain]) {
-      material.onBeforeCompile = (shader) => patch(shader, this.uniforms);
-    }
+    this.fine.onBeforeCompile = (shader) => {
+      Object.assign(shader.uniforms, this.uniforms);
+      shader.vertexShader = instancedHead + shader.vertexShader
+        .replace('#include <beginnormal_vertex>', instancedNormal)
+        .replace('#include <begin_vertex>', instancedBody);
+      paintFragments(shader);
+    };
     this.ballDepth.onBeforeCompile = (shader) => {
       shader.vertexShader = turnDome + shader.vertexShader.replace('#include <begin_vertex>',
-        'vec3 transformed = turnDome(position, -vec3(viewMatrix[0][2], viewMatrix[1][2], viewMatrix[2][2]));');
+        `vec3 transformed = turnDome(position, ${intoBall(shadeward)});`);
     };
+  }
+
+  /** @param bodies the state of the bodies */
+  makeMerged(bodies: Texture): Material {
+    const material = new MeshLambertMaterial();
+    material.onBeforeCompile = (shader) => {
+      Object.assign(shader.uniforms, this.uniforms, { uBodies: { value: bodies } });
+      shader.vertexShader = mergedHead + shader.vertexShader
+        .replace('#include <beginnormal_vertex>', mergedNormal)
+        .replace('#include <begin_vertex>', mergedBody);
+      paintFragments(shader);
+    };
+    return material;
+  }
+
+  makeMergedDepth(bodies: Texture): Material {
+    const material = new MeshDepthMaterial({ depthPacking: RGBADepthPacking });
+    material.onBeforeCompile = (shader) => {
+      Object.assign(shader.uniforms, { uBodies: { value: bodies } });
+      shader.vertexShader = mergedHead + shader.vertexShader.replace('#include <begin_vertex>', mergedShade);
+    };
+    return material;
   }
 }
