@@ -66,8 +66,8 @@ export class SettingsPanel {
 
   private describeDial(value: number | null): void {
     let text = 'Own settings: not a point of the dial.';
-    if (value === 0) text = 'The thesis’s settings for real time.';
-    else if (value === 1) text = 'The thesis’s settings for accuracy.';
+    if (value === 0) text = 'The preset for real time.';
+    else if (value === 1) text = 'The preset for accuracy.';
     else if (value !== null) text = `${Math.round(100 * value)} % of the way to accuracy; thresholds and steps in between.`;
     setText(this.dialNote, text);
   }
