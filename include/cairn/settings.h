@@ -73,7 +73,10 @@ struct ResolutionSettings {
     std::int64_t visit_limit = 80'000;
     double sweep_tolerance = 1e-6;    ///< no more sweeps once a sweep changes no contact's velocity by more [m/s]
     std::int64_t direct_limit = 100;  ///< batches at rest of up to so many bodies may take direct steps; 0 = none
-    std::int64_t sweeps = 50;         ///< sweeps over the contacts of ResolutionKind::sweep, ≥ 1
+    /// accelerated_sweeps leaves sleeping bodies of a batch asleep until their contacts push otherwise than when they
+    /// fell asleep, by what would give them this speed [m/s], ≥ 0; 0 = they wake as soon as their batch is resolved.
+    double wake_speed = 8.33e-3;
+    std::int64_t sweeps = 50;  ///< sweeps over the contacts of ResolutionKind::sweep, ≥ 1
 };
 
 /// Sleeping. @source thesis §3.2

@@ -31,6 +31,8 @@ struct BodyState {
     std::span<std::uint8_t> asleep;      ///< 1 = asleep
     std::span<WakeReason> woken;         ///< why it woke in this step
 
+    /// What gravity gives a body at rest in this time step [m/s, W].
+    Vec3 fall = Vec3::Zero();
     /// Subset of the shock propagation; empty unless the step is traced.
     std::span<std::int32_t> shock_stage{};
 

@@ -33,7 +33,10 @@ std::span<const ContactMemory::Entry> ContactMemory::entriesOf(BodyIndex a, Body
 
 void ContactMemory::recallPair(const BodyStorage& bodies, std::span<Contact> contacts,
                                std::span<const Entry> remembered) {
-    for (Contact& contact : contacts) contact.last_impulse.setZero();
+    for (Contact& contact : contacts) {
+        contact.last_impulse.setZero();
+        contact.reference_impulse.setZero();
+    }
     const Contact& first = contacts.front();
     const double reach = same_place * std::min(bodies.r_max[first.a], bodies.r_max[first.b]);
     // Every remembered impulse goes to one contact as a whole: where points of a manifold merge or split, the pair
@@ -50,7 +53,9 @@ void ContactMemory::recallPair(const BodyStorage& bodies, std::span<Contact> con
             nearest = distance;
             heir = &contact;
         }
-        if (heir != nullptr) heir->last_impulse += entry.impulse;
+        if (heir == nullptr) continue;
+        heir->last_impulse += entry.impulse;
+        heir->reference_impulse += entry.reference_impulse;
     }
 }
 
@@ -69,7 +74,10 @@ void ContactMemory::recall(const BodyStorage& bodies, std::span<const std::uint8
             const auto candidates = entriesOf(contacts[begin].a, contacts[begin].b, cursor);
             const bool same = (still[contacts[begin].a] & still[contacts[begin].b]) != 0;
             if (same && candidates.size() == last - begin) {
-                for (std::size_t i = begin; i < last; ++i) contacts[i].last_impulse = candidates[i - begin].impulse;
+                for (std::size_t i = begin; i < last; ++i) {
+                    contacts[i].last_impulse = candidates[i - begin].impulse;
+                    contacts[i].reference_impulse = candidates[i - begin].reference_impulse;
+                }
             } else {
                 recallPair(bodies, contacts.subspan(begin, last - begin), candidates);
             }
@@ -83,8 +91,12 @@ void ContactMemory::store(const BodyStorage& bodies, std::span<const Contact> co
     executor.forBlocks(contacts.size(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             const Contact& contact = contacts[i];
-            entries_[i] = {contact.a, contact.b, placeOn(bodies, contact.a, contact.point),
-                           placeOn(bodies, contact.b, contact.point), contact.impulse};
+            entries_[i] = {contact.a,
+                           contact.b,
+                           placeOn(bodies, contact.a, contact.point),
+                           placeOn(bodies, contact.b, contact.point),
+                           contact.impulse,
+                           contact.reference_impulse};
         }
     });
 }

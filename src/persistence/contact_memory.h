@@ -31,9 +31,10 @@ class ContactMemory {
     /// A contact of the last step.
     struct Entry {
         BodyIndex a, b;
-        Vec3 place_a;  ///< [m, frame of A]
-        Vec3 place_b;  ///< [m, frame of B]
-        Vec3 impulse;  ///< on A [N·s, W]
+        Vec3 place_a;            ///< [m, frame of A]
+        Vec3 place_b;            ///< [m, frame of B]
+        Vec3 impulse;            ///< on A [N·s, W]
+        Vec3 reference_impulse;  ///< Contact::reference_impulse
     };
     std::span<const Entry> entries() const { return entries_; }
     /// Takes over a memory that was saved. @param entries sorted by (a, b)

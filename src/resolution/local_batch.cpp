@@ -42,6 +42,11 @@ void LocalBatch::gatherBodies(const BatchView& batch, std::span<const Contact> a
         ends[i].b = localIndex(contact.b, state);
     }
     for (const LocalBody& body : bodies) local_of_slot_[body.slot] = none;
+    // Bodies that sleep on may be left out of a batch.
+    for (std::size_t i = dynamic_bodies; i < bodies.size(); ++i) {
+        bodies[i].mass_inv = 0;
+        bodies[i].inertia_inv = {};
+    }
 }
 
 void LocalBatch::gather(const BatchView& batch, std::span<const Contact> all_contacts, const BodyState& state) {

@@ -192,6 +192,17 @@ void batchArrays(Stream& stream, AnyBatches& batches) {
     array(stream, batches.batch_of_contact);
 }
 
+/// Since version 5.
+template <class Entry>
+void referenceImpulse(ByteWriter& out, const Entry& entry) {
+    field(out, entry.reference_impulse);
+}
+template <class Entry>
+void referenceImpulse(ByteReader& in, Entry& entry) {
+    entry.reference_impulse = entry.impulse;
+    if (in.version() >= 5) field(in, entry.reference_impulse);
+}
+
 template <class Stream, class Entry>
 void memoryFields(Stream& stream, Entry& entry) {
     field(stream, entry.a);
@@ -199,6 +210,7 @@ void memoryFields(Stream& stream, Entry& entry) {
     field(stream, entry.place_a);
     field(stream, entry.place_b);
     field(stream, entry.impulse);
+    referenceImpulse(stream, entry);
 }
 
 /// Since version 4.

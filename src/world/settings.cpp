@@ -145,6 +145,9 @@ const std::vector<SettingField>& fields() {
         plain<&S::resolution, &R::direct_limit>(
             "direct_limit", "resolution", "bodies", 0, 1e6,
             "batches at rest of up to so many bodies are solved directly where sweeps are not enough; 0 = none"),
+        plain<&S::resolution, &R::wake_speed>(
+            "wake_speed", "resolution", "m/s", 0, 1e3,
+            "'accelerated_sweeps' lets bodies sleep until their contacts' push changes by so much; 0 = not"),
         plain<&S::resolution, &R::sweeps>("sweeps", "resolution", "", 1, 1e6,
                                           "sweeps over the contacts of the resolution 'sweep'"),
         plain<&S::sleep, &L::sleeping>("sleeping", "sleep", "", 0, 1, "bodies at rest fall asleep"),
@@ -284,6 +287,7 @@ Settings Settings::preset(Preset preset, double steps_per_second, double gravity
         s.resolution.visit_limit = 0;
         s.resolution.sweep_tolerance = 1e-8 * scale;
         s.resolution.direct_limit = 1000;
+        s.resolution.wake_speed = 0.52e-3 * scale;
         s.sleep.sleep_threshold = 0.52e-3 * scale;
         s.gravity_damping.damping = 0;
         s.gravity_damping.damping_threshold = 0;
@@ -291,6 +295,7 @@ Settings Settings::preset(Preset preset, double steps_per_second, double gravity
         s.resolution.resolution_threshold *= scale;
         s.resolution.restitution_threshold *= scale;
         s.resolution.sweep_tolerance *= scale;
+        s.resolution.wake_speed *= scale;
         s.sleep.sleep_threshold *= scale;
         s.gravity_damping.damping_threshold *= scale;
     }

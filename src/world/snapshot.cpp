@@ -50,6 +50,7 @@ Settings settingsOfTheFirstVersion() {
     settings.resolution.moving_sweep_limit = settings.resolution.sweep_limit;
     settings.resolution.visit_limit = 0;
     settings.resolution.direct_limit = 0;
+    settings.resolution.wake_speed = 0;
     return settings;
 }
 

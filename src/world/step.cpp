@@ -126,6 +126,9 @@ void resolveStage(WorldState& world) {
         world.trace.shock_stage.assign(bodies.size(), -1);
         bodies.shock_stage = world.trace.shock_stage;
     }
+    const GravityDampingSettings& damping = world.settings.gravity_damping;
+    bodies.fall = (damping.damping_threshold > 0 ? 1 - damping.damping : 1.0) * world.settings.timeStep() *
+                  (world.gravity + world.global_acceleration);
     const bool remembers = world.settings.resolution.resolution == ResolutionKind::accelerated_sweeps;
     if (remembers) world.memory.recall(world.bodies, data.still.still, data.contacts, world.executor);
     buildJointBlocks(world);

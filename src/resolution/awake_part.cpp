@@ -1,0 +1,187 @@
+#include "resolution/awake_part.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace cairn {
+
+namespace {
+
+/// What the contacts of a sleeping body push more than when it was awake last.
+struct Disturbance {
+    Vec3 linear = Vec3::Zero();   ///< [N·s]
+    Vec3 angular = Vec3::Zero();  ///< about the centre of mass [N·m·s]
+    double squared_reach = 0;     ///< of the farthest contact from the centre of mass [m²]
+    bool seen = false;
+};
+
+class AwakePart final : public Resolution {
+  public:
+    AwakePart(std::unique_ptr<Resolution> resolution, Sleepers sleepers)
+        : resolution_(std::move(resolution)), sleepers_(sleepers) {}
+
+    ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
+                             const ResolutionSettings& settings, const Executor& executor) override {
+        const auto sleepers = static_cast<std::size_t>(
+            std::ranges::count_if(batch.bodies, [&](BodyIndex i) { return sleeps(bodies, i); }));
+        const bool still = batch.joints.empty() && sleepers > 0 && hasStillSupports(batch, contacts, bodies);
+        if (still && sleepers == batch.bodies.size()) {
+            for (const std::uint32_t i : batch.contacts) contacts[i].impulse += contacts[i].last_impulse;
+            return {};
+        }
+        if (still && sleepers_ == Sleepers::remain && settings.wake_speed > 0) {
+            return resolvePart(batch, contacts, bodies, settings, executor);
+        }
+        const ResolutionCounts counts = resolution_->resolve(batch, contacts, bodies, settings, executor);
+        for (const std::uint32_t i : batch.contacts) contacts[i].reference_impulse = contacts[i].impulse;
+        return counts;
+    }
+
+    std::size_t sharedFrom() const override { return resolution_->sharedFrom(); }
+
+  private:
+    struct Velocities {
+        Vec3 v;
+        Vec3 w;
+    };
+
+    static bool rests(const BodyState& bodies, BodyIndex i) { return bodies.v[i].isZero(0) && bodies.w[i].isZero(0); }
+    static bool sleeps(const BodyState& bodies, BodyIndex i) { return bodies.asleep[i] != 0 && rests(bodies, i); }
+
+    static bool hasStillSupports(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
+        const auto holds = [&](BodyIndex i) { return !bodies.isFixed(i) || rests(bodies, i); };
+        return std::ranges::all_of(batch.contacts,
+                                   [&](std::uint32_t i) { return holds(contacts[i].a) && holds(contacts[i].b); });
+    }
+
+    ResolutionCounts resolvePart(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
+                                 const ResolutionSettings& settings, const Executor& executor) {
+        if (held_.size() < bodies.size()) {
+            held_.resize(bodies.size(), 0);
+            disturbances_.resize(bodies.size());
+        }
+        for (const BodyIndex i : batch.bodies) held_[i] = sleeps(bodies, i) ? 1 : 0;
+        ResolutionCounts counts;
+        for (int reach = 1;; reach *= 4) {
+            select(batch, contacts, bodies);
+            const BatchView part{part_bodies_, part_contacts_, {}};
+            const ResolutionCounts round = resolution_->resolve(part, contacts, bodies, settings, executor);
+            counts.global_iterations += round.global_iterations;
+            findDisturbed(contacts, bodies, settings.wake_speed);
+            if (disturbed_.empty()) break;
+            goBack(contacts, bodies);
+            wakeAround(batch, contacts, bodies, reach);
+        }
+        for (const std::uint32_t i : batch.contacts) {
+            Contact& contact = contacts[i];
+            const bool a = isFree(bodies, contact.a);
+            const bool b = isFree(bodies, contact.b);
+            if (!a && !b) contact.impulse += contact.last_impulse;
+            if ((a || isNotHeld(contact.a)) && (b || isNotHeld(contact.b))) contact.reference_impulse = contact.impulse;
+        }
+        for (const BodyIndex i : batch.bodies) held_[i] = 0;
+        return counts;
+    }
+
+    bool isNotHeld(BodyIndex i) const { return held_[i] == 0; }
+    bool isFree(const BodyState& bodies, BodyIndex i) const { return held_[i] == 0 && !bodies.isFixed(i); }
+
+    /// Finds the bodies that are not held with their contacts, and notes their velocities.
+    void select(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
+        part_bodies_.clear();
+        part_contacts_.clear();
+        before_.clear();
+        for (const BodyIndex i : batch.bodies) {
+            if (held_[i] != 0) continue;
+            part_bodies_.push_back(i);
+            before_.push_back({bodies.v[i], bodies.w[i]});
+        }
+        for (const std::uint32_t i : batch.contacts) {
+            if (isFree(bodies, contacts[i].a) || isFree(bodies, contacts[i].b)) part_contacts_.push_back(i);
+        }
+    }
+
+    void findDisturbed(std::span<const Contact> contacts, const BodyState& bodies, double wake_speed) {
+        disturbed_.clear();
+        seen_.clear();
+        for (const std::uint32_t i : part_contacts_) {
+            const Contact& contact = contacts[i];
+            const Vec3 difference = contact.impulse - contact.reference_impulse;
+            if (held_[contact.a] != 0) disturb(contact.a, difference, contact.point - bodies.position[contact.a]);
+            if (held_[contact.b] != 0) disturb(contact.b, -difference, contact.point - bodies.position[contact.b]);
+        }
+        for (const BodyIndex i : seen_) {
+            Disturbance& d = disturbances_[i];
+            const Vec3 v = bodies.mass_inv[i] * d.linear;
+            const Vec3 w = bodies.inertiaInv_W[i] * d.angular;
+            // As the motion that falling asleep is about; what is not a number disturbs, too.
+            const double motion = 2 * (v.squaredNorm() + w.squaredNorm() * d.squared_reach);
+            if (!(motion <= wake_speed * wake_speed)) disturbed_.push_back(i);
+            d = {};
+        }
+    }
+
+    void disturb(BodyIndex i, const Vec3& impulse, const Vec3& r) {
+        Disturbance& d = disturbances_[i];
+        if (!d.seen) seen_.push_back(i);
+        d.seen = true;
+        d.linear += impulse;
+        d.angular += r.cross(impulse);
+        d.squared_reach = std::max(d.squared_reach, r.squaredNorm());
+    }
+
+    /// Undoes the resolution of the part.
+    void goBack(std::span<Contact> contacts, const BodyState& bodies) const {
+        for (std::size_t n = 0; n < part_bodies_.size(); ++n) {
+            bodies.v[part_bodies_[n]] = before_[n].v;
+            bodies.w[part_bodies_[n]] = before_[n].w;
+        }
+        for (const std::uint32_t i : part_contacts_) {
+            contacts[i].impulse.setZero();
+            contacts[i].angular_impulse.setZero();
+        }
+    }
+
+    /// Wakes the disturbed bodies and all that so many contacts lead to from there.
+    void wakeAround(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies, int reach) {
+        for (const BodyIndex i : disturbed_) free(bodies, i);
+        for (int step = 0; step < reach; ++step) {
+            disturbed_.clear();
+            for (const std::uint32_t i : batch.contacts) {
+                const auto [a, b] = std::pair(contacts[i].a, contacts[i].b);
+                if (held_[a] != 0 && isWokenHere(bodies, b)) disturbed_.push_back(a);
+                if (held_[b] != 0 && isWokenHere(bodies, a)) disturbed_.push_back(b);
+            }
+            for (const BodyIndex i : disturbed_) free(bodies, i);
+        }
+    }
+
+    /// Whether the resolution woke it, in this step.
+    bool isWokenHere(const BodyState& bodies, BodyIndex i) const {
+        return isFree(bodies, i) && bodies.woken[i] == WakeReason::struck;
+    }
+
+    void free(const BodyState& bodies, BodyIndex i) {
+        held_[i] = 0;
+        bodies.wake(i, WakeReason::struck);
+        bodies.v[i] = bodies.fall;
+    }
+
+    std::unique_ptr<Resolution> resolution_;
+    Sleepers sleepers_;
+    std::vector<std::uint8_t> held_;            ///< [slots] 1 = sleeps and is held still; 0 outside of resolve()
+    std::vector<Disturbance> disturbances_;     ///< [slots] none outside of findDisturbed()
+    std::vector<BodyIndex> part_bodies_;        ///< ascending
+    std::vector<std::uint32_t> part_contacts_;  ///< ascending
+    std::vector<Velocities> before_;            ///< [part_bodies_]
+    std::vector<BodyIndex> seen_;               ///< held bodies with a contact of the part
+    std::vector<BodyIndex> disturbed_;
+};
+
+}  // namespace
+
+std::unique_ptr<Resolution> makeAwakePart(std::unique_ptr<Resolution> resolution, Sleepers sleepers) {
+    return std::make_unique<AwakePart>(std::move(resolution), sleepers);
+}
+
+}  // namespace cairn

@@ -1,0 +1,97 @@
+/// In a batch that sleeps in part only what is disturbed wakes, and wakes at once.
+#include <gtest/gtest.h>
+
+#include "resolution/batch_fixture.h"
+
+namespace cairn {
+namespace {
+
+using test::Pile;
+
+constexpr double wake_speed = 0.01;  // [m/s]
+
+ResolutionSettings sweeping(double speed = wake_speed) {
+    ResolutionSettings settings = test::exactSettings();
+    settings.resolution = ResolutionKind::accelerated_sweeps;
+    settings.restitution_threshold = 0.05;
+    settings.sweep_limit = 1000;
+    settings.moving_sweep_limit = 1000;
+    settings.sweep_tolerance = 1e-12;
+    settings.visit_limit = 0;
+    settings.wake_speed = speed;
+    return settings;
+}
+
+/// Balls of 1 kg in a row along x, all asleep but the first.
+Pile row(int balls) {
+    Pile pile;
+    for (int i = 0; i < balls; ++i) {
+        const BodyIndex ball = pile.addSphere(Vec3(i, 0, 0));
+        pile.asleep[ball] = ball == 0 ? 0 : 1;
+        if (ball > 0) pile.touch(ball - 1, ball, Vec3(i - 0.5, 0, 0), -Vec3::UnitX());
+    }
+    return pile;
+}
+
+int sleepersOf(const Pile& pile) {
+    return static_cast<int>(std::ranges::count(pile.asleep, 1));
+}
+
+TEST(AwakePart, AnImpactGoesThroughASleepingRowInTheSameStep) {
+    Pile pile = row(40);
+    pile.v[0] = Vec3(20, 0, 0);
+    pile.resolve(sweeping());
+    EXPECT_EQ(sleepersOf(pile), 0);
+    EXPECT_NEAR(pile.momentum().x(), 20, 1e-9);
+    for (const Vec3& v : pile.v) EXPECT_NEAR(v.x(), 0.5, 1e-6);
+}
+
+TEST(AwakePart, WhatIsTooSlowToWakeAnythingStops) {
+    Pile pile = row(40);
+    pile.v[0] = Vec3(0.7 * wake_speed, 0, 0);
+    pile.resolve(sweeping());
+    EXPECT_EQ(sleepersOf(pile), 39);
+    for (const Vec3& v : pile.v) EXPECT_LT(v.norm(), 1e-12);
+}
+
+TEST(AwakePart, WithoutAWakeSpeedAllAreResolved) {
+    Pile pile = row(40);
+    pile.v[0] = Vec3(0.002, 0, 0);
+    pile.resolve(sweeping(0));
+    EXPECT_EQ(sleepersOf(pile), 0);
+    EXPECT_NEAR(pile.momentum().x(), 0.002, 1e-12);
+}
+
+TEST(AwakePart, WhatCarriesTheSamePushSleepsOnAndKeepsItsImpulses) {
+    Pile pile = row(10);
+    for (Contact& contact : pile.contacts) {
+        contact.last_impulse = -0.5 * Vec3::UnitX();
+        contact.reference_impulse = contact.last_impulse;
+    }
+    pile.v[0] = Vec3(0.5 + 0.9 * wake_speed / 2, 0, 0);
+    pile.resolve(sweeping());
+    EXPECT_EQ(sleepersOf(pile), 9);
+    EXPECT_NEAR(pile.v[0].x(), 0, 1e-12);
+    EXPECT_EQ(pile.contacts[5].impulse, pile.contacts[5].last_impulse);
+    EXPECT_EQ(pile.contacts[0].reference_impulse, pile.contacts[0].last_impulse) << "small differences add up";
+}
+
+TEST(AwakePart, AContactOfTwoAwakeBodiesIsTheNextReference) {
+    Pile pile = row(3);
+    pile.v[0] = Vec3(3, 0, 0);
+    pile.resolve(sweeping());
+    for (const Contact& contact : pile.contacts) EXPECT_EQ(contact.reference_impulse, contact.impulse);
+    EXPECT_NEAR(pile.contacts[0].impulse.x(), -2, 1e-9);
+}
+
+TEST(AwakePart, TheImpulseQueueWakesWhatItTouches) {
+    Pile pile = row(3);
+    pile.v[0] = Vec3(0.003, 0, 0);
+    ResolutionSettings settings = sweeping();
+    settings.resolution = ResolutionKind::impulse_queue;
+    pile.resolve(settings);
+    EXPECT_EQ(pile.asleep[1], 0);
+}
+
+}  // namespace
+}  // namespace cairn
