@@ -60,7 +60,12 @@ class AwakePart final : public Resolution {
             held_.resize(bodies.size(), 0);
             disturbances_.resize(bodies.size());
         }
-        for (const BodyIndex i : batch.bodies) held_[i] = sleeps(bodies, i) ? 1 : 0;
+        std::size_t held = 0;
+        for (const BodyIndex i : batch.bodies) {
+            held_[i] = sleeps(bodies, i) ? 1 : 0;
+            held += held_[i];
+        }
+        if (!isWorthwhile(held, batch)) wakeAll(batch, bodies);
         ResolutionCounts counts;
         for (int reach = 1;; reach *= 4) {
             select(batch, contacts, bodies);
@@ -71,6 +76,8 @@ class AwakePart final : public Resolution {
             if (disturbed_.empty()) break;
             goBack(contacts, bodies);
             wakeAround(batch, contacts, bodies, reach);
+            const auto still_held = std::ranges::count_if(batch.bodies, [&](BodyIndex i) { return held_[i] != 0; });
+            if (!isWorthwhile(static_cast<std::size_t>(still_held), batch)) wakeAll(batch, bodies);
         }
         for (const std::uint32_t i : batch.contacts) {
             Contact& contact = contacts[i];
@@ -81,6 +88,15 @@ class AwakePart final : public Resolution {
         }
         for (const BodyIndex i : batch.bodies) held_[i] = 0;
         return counts;
+    }
+
+    /// A resolution of most of a batch saves less than it may waste.
+    static bool isWorthwhile(std::size_t held, const BatchView& batch) { return 2 * held > batch.bodies.size(); }
+
+    void wakeAll(const BatchView& batch, const BodyState& bodies) {
+        for (const BodyIndex i : batch.bodies) {
+            if (held_[i] != 0) free(bodies, i);
+        }
     }
 
     bool isNotHeld(BodyIndex i) const { return held_[i] == 0; }
