@@ -13,6 +13,7 @@ constexpr std::size_t block_size = 64;
 bool mayCollide(const BroadPhaseInput& input, BodyIndex a, BodyIndex b) {
     if (input.kind[a] == BodyKind::hole || input.kind[b] == BodyKind::hole) return false;
     if (input.kind[a] == BodyKind::fixed && input.kind[b] == BodyKind::fixed) return false;
+    if (input.isStill(a) && input.isStill(b)) return false;
     return input.bounds[a].overlaps(input.bounds[b]);
 }
 

@@ -21,7 +21,7 @@ std::uint32_t BlockTable::enter(const BlockKey& key) {
         }
         const auto number = static_cast<std::uint32_t>(blocks_.size());
         at = {tag, number};
-        blocks_.push_back({key, 0, 0});
+        blocks_.push_back({.key = key});
         if (2 * blocks_.size() > places_.size()) resize(2 * places_.size());
         return number;
     }

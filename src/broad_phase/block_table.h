@@ -34,6 +34,7 @@ struct Block {
     BlockKey key;
     std::uint64_t occupied = 0;    ///< bit per position
     std::uint32_t first_cell = 0;  ///< number of the cell at the lowest occupied position
+    std::uint32_t moved = 0;       ///< bodies that are not still
 
     bool has(unsigned position) const { return (occupied >> position & 1) != 0; }
     /// @pre has(position)

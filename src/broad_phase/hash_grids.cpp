@@ -94,6 +94,7 @@ void HashGrids::enterBlocks(const BroadPhaseInput& input) {
     table_.reset();
     apart_.clear();
     address_.resize(slots);
+    moved_.assign(levels_.levels(), 0);
     for (BodyIndex i = 0; i < slots; ++i) {
         if (level[i] == GridLevels::apart) apart_.push_back(i);
         if (level[i] < 0) continue;
@@ -102,6 +103,9 @@ void HashGrids::enterBlocks(const BroadPhaseInput& input) {
         const std::uint32_t block = table_.enter({at.x >> 2, at.y >> 2, at.z >> 2, level[i]});
         const auto position = static_cast<unsigned>((at.x & 3) + 4 * (at.y & 3) + 16 * (at.z & 3));
         table_.blocks()[block].occupied |= std::uint64_t{1} << position;
+        const std::uint32_t moved = input.isStill(i) ? 0 : 1;
+        table_.blocks()[block].moved += moved;
+        moved_[own_level] += moved;
         address_[i] = {block, position};
     }
 }
@@ -141,7 +145,8 @@ void HashGrids::placeEntries(const BroadPhaseInput& input) {
     for (BodyIndex i = 0; i < slots; ++i) {
         if (level[i] < 0) continue;
         Cell& cell = cells_[address_[i].cell_or_position];
-        entries_[input.kind[i] == BodyKind::dynamic ? cell.fixed_begin++ : cell.end++] = {input.bounds[i], i};
+        entries_[input.kind[i] == BodyKind::dynamic ? cell.fixed_begin++ : cell.end++] = {input.bounds[i], i,
+                                                                                          input.isStill(i) ? 0U : 1U};
     }
 }
 
@@ -157,12 +162,26 @@ inline void HashGrids::testRow(const Entry& entry, const Range& others, PairBuff
         const Entry& other = entries_[j];
         out[count].a = std::min(entry.body, other.body);
         out[count].b = std::max(entry.body, other.body);
-        count += overlap(entry.bounds, other.bounds);
+        count += overlap(entry.bounds, other.bounds) & (entry.moved | other.moved);
     }
     found.commit(count);
 }
 
 void HashGrids::searchBlock(const Block& block, PairBuffer& found) const {
+    const auto level = static_cast<std::size_t>(block.key.level);
+    if (moved_[level] > 0) searchLevel(block, found);
+    const auto moved_above = std::span(moved_).subspan(level + 1, levels_.levels() - level - 1);
+    if (block.moved > 0 || std::ranges::any_of(moved_above, [](std::uint32_t moved) { return moved > 0; })) {
+        searchCoarser(block, found);
+    }
+}
+
+bool HashGrids::isStillAround(const Block& block, std::span<const Block* const> around) const {
+    return block.moved == 0 &&
+           std::ranges::none_of(around, [](const Block* other) { return other != nullptr && other->moved > 0; });
+}
+
+void HashGrids::searchLevel(const Block& block, PairBuffer& found) const {
     std::uint32_t needed = 0;
     forEachPosition(block.occupied, [&](unsigned position) { needed |= needed_blocks[position]; });
     std::array<const Block*, 27> around{};
@@ -172,6 +191,7 @@ void HashGrids::searchBlock(const Block& block, PairBuffer& found) const {
             slot == own_block ? &block : table_.find({x + slot % 3 - 1, y + slot / 3 % 3 - 1, z + slot / 9 - 1, level});
     });
 
+    if (isStillAround(block, around)) return;
     const Cell* cell = &cells_[block.first_cell];
     forEachPosition(block.occupied, [&](unsigned position) {
         Neighbours neighbours;
@@ -184,7 +204,6 @@ void HashGrids::searchBlock(const Block& block, PairBuffer& found) const {
         searchCell(*cell, neighbours, found);
         ++cell;
     });
-    if (static_cast<std::size_t>(block.key.level) + 1 < levels_.levels()) searchCoarser(block, found);
 }
 
 void HashGrids::Neighbours::add(const Cell& cell) {
@@ -254,12 +273,13 @@ void HashGrids::searchApart(const BroadPhaseInput& input, std::size_t begin, std
     for (const BodyIndex p : apart_) {
         const Bounds& bounds = input.bounds[p];
         const bool p_fixed = input.kind[p] == BodyKind::fixed;
+        const bool p_still = input.isStill(p);
         BodyPair* const out = found.reserve(end - begin);
         std::size_t count = 0;
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
             // Two bodies apart meet when it is the turn of the lower one.
             const bool once = level[i] >= 0 || (level[i] == GridLevels::apart && i > p);
-            const bool movable = !p_fixed || input.kind[i] == BodyKind::dynamic;
+            const bool movable = (!p_fixed || input.kind[i] == BodyKind::dynamic) && !(p_still && input.isStill(i));
             out[count] = {std::min(p, i), std::max(p, i)};
             count += once && movable ? overlap(bounds, input.bounds[i]) : 0;
         }

@@ -19,6 +19,8 @@ namespace cairn {
 /// cell(lower₁) − 1 ≤ cell(lower₂) ≤ cell(upper₁), all in the cells of the coarser level 2. So each cell is compared
 /// with one half of its neighbours and with the few cells of coarser levels around it; every pair comes up once.
 ///
+/// Two bodies that are both still are not compared: blocks without a moved body in or around them are passed over.
+///
 /// The hash finds blocks of 4 × 4 × 4 cells, so that most steps to a neighbour need no hash and neighbours lie close
 /// in memory. The bodies of a cell are stored side by side, dynamic ones first, so that fixed ones never meet each
 /// other.
@@ -34,6 +36,7 @@ class HashGrids final : public BroadPhase {
     struct Entry {
         Bounds bounds;  ///< [m, W]
         BodyIndex body;
+        std::uint32_t moved;  ///< 1 = it is not still
     };
     /// Bodies of a cell in entries_: dynamic ones in [begin, fixed_begin), fixed ones in [fixed_begin, end).
     struct Cell {
@@ -65,6 +68,8 @@ class HashGrids final : public BroadPhase {
     void numberCells();
     void placeEntries(const BroadPhaseInput& input);
     void searchBlock(const Block& block, PairBuffer& found) const;
+    bool isStillAround(const Block& block, std::span<const Block* const> around) const;
+    void searchLevel(const Block& block, PairBuffer& found) const;
     void searchCell(const Cell& cell, const Neighbours& neighbours, PairBuffer& found) const;
     void searchCoarser(const Block& block, PairBuffer& found) const;
     void searchCoarserBlock(const Block& block, const Bounds& around, const Block& coarse, std::uint64_t positions,
@@ -75,11 +80,12 @@ class HashGrids final : public BroadPhase {
 
     GridLevels levels_;
     BlockTable table_;
-    std::vector<Cell> cells_;        ///< numbered as Block describes
-    std::vector<Address> address_;   ///< per slot
-    std::vector<Entry> entries_;     ///< grouped by cell
-    std::vector<BodyIndex> apart_;   ///< bodies outside the hierarchy, ascending
-    std::vector<PairBuffer> found_;  ///< [2 · workers] of the cells, then of the bodies apart
+    std::vector<Cell> cells_;           ///< numbered as Block describes
+    std::vector<Address> address_;      ///< per slot
+    std::vector<Entry> entries_;        ///< grouped by cell
+    std::vector<BodyIndex> apart_;      ///< bodies outside the hierarchy, ascending
+    std::vector<PairBuffer> found_;     ///< [2 · workers] of the cells, then of the bodies apart
+    std::vector<std::uint32_t> moved_;  ///< [levels] bodies that are not still
     PairRows rows_;
 };
 

@@ -20,11 +20,11 @@ void findStill(const BodyStorage& bodies, double margin, const Executor& executo
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
             StillBodies::Place& place = still.places[i];
-            const bool same = place.known && place.generation == bodies.generation[i] &&
-                              place.position == bodies.position[i] &&
+            const bool same = place.kind != BodyKind::hole && place.kind == bodies.kind[i] &&
+                              place.generation == bodies.generation[i] && place.position == bodies.position[i] &&
                               place.orientation.coeffs() == bodies.orientation[i].coeffs();
             still.still[i] = same ? 1 : 0;
-            place = {bodies.position[i], bodies.orientation[i], bodies.generation[i], true};
+            place = {bodies.position[i], bodies.orientation[i], bodies.generation[i], bodies.kind[i]};
         }
     });
 }
@@ -40,6 +40,18 @@ void findBounds(const BodyStorage& bodies, double margin, const Executor& execut
             data.bounds[i] = grown;
         }
     });
+}
+
+/// Pairs of bodies that did not move are those that they were.
+void findPairs(const BodyStorage& bodies, BroadPhase& broad_phase, const Executor& executor, StepData& data) {
+    const std::span<const std::uint8_t> still = data.still.still;
+    broad_phase.findPairs({.kind = bodies.kind, .bounds = data.bounds, .still = still}, executor, data.moved_pairs);
+    data.still_pairs.clear();
+    for (const BodyPair& pair : data.pairs) {
+        if (data.still.areStill(pair.a, pair.b)) data.still_pairs.push_back(pair);
+    }
+    data.pairs.resize(data.moved_pairs.size() + data.still_pairs.size());
+    std::ranges::merge(data.moved_pairs, data.still_pairs, data.pairs.begin());
 }
 
 /// Contacts of one pair of bodies closer to each other than this part of the smaller body are one, if their directions
@@ -132,8 +144,7 @@ void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, B
                     const Executor& executor, StepData& data) {
     findStill(bodies, margin, executor, data.still);
     findBounds(bodies, margin, executor, data);
-    broad_phase.findPairs({.kind = bodies.kind, .bounds = data.bounds}, executor, data.pairs);
-
+    findPairs(bodies, broad_phase, executor, data);
     data.thread_contacts.resize(static_cast<std::size_t>(executor.threads()));
     for (auto& contacts : data.thread_contacts) contacts.clear();
     executor.forBlocks(
@@ -167,7 +178,7 @@ void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, B
 void forgetDisplaced(const BodyStorage& bodies, StillBodies& still) {
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         StillBodies::Place& place = still.places[i];
-        place.known = place.known && place.position == bodies.position[i];
+        if (place.position != bodies.position[i]) place.kind = BodyKind::hole;
     }
 }
 

@@ -55,7 +55,7 @@ struct StillBodies {
         Vec3 position = Vec3::Zero();
         Quat orientation = Quat::Identity();
         std::uint32_t generation = 0;
-        bool known = false;
+        BodyKind kind = BodyKind::hole;  ///< hole = unknown
     };
     std::vector<Place> places;        ///< [slots] at the last detection
     std::vector<std::uint8_t> still;  ///< [slots] 1 = at the same place as at the detection before
@@ -68,6 +68,8 @@ struct StillBodies {
 struct StepData {
     std::vector<Bounds> bounds;                         ///< detection: [slots] grown by the contact margin [m, W]
     std::vector<BodyPair> pairs;                        ///< detection: near pairs, sorted
+    std::vector<BodyPair> moved_pairs;                  ///< detection: those of which a body moved
+    std::vector<BodyPair> still_pairs;                  ///< detection: the others
     StillBodies still;                                  ///< detection: which bodies are where they were
     std::vector<std::vector<Contact>> thread_contacts;  ///< detection: [threads], joined into contacts
     std::vector<Contact> contacts;        ///< detection, changed by correction and resolution: sorted by (a, b)

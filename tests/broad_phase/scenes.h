@@ -42,6 +42,7 @@ class Random {
 struct Bodies {
     std::vector<BodyKind> kind;
     std::vector<Bounds> bounds;
+    std::vector<std::uint8_t> still;  ///< empty = none is
 
     void add(const Bounds& b, BodyKind k = BodyKind::dynamic) {
         kind.push_back(k);
@@ -57,7 +58,7 @@ struct Bodies {
             std::swap(bounds[i - 1], bounds[j]);
         }
     }
-    BroadPhaseInput input() const { return {kind, bounds}; }
+    BroadPhaseInput input() const { return {kind, bounds, still}; }
     std::size_t size() const { return kind.size(); }
 };
 

@@ -66,6 +66,25 @@ TEST(HashGrids, NoneOneAndTwoBodies) {
     EXPECT_TRUE(pairsOf(BroadPhaseKind::hash_grids, bodies).empty());
 }
 
+TEST(HashGrids, LeaveOutPairsOfStillBodies) {
+    for (const std::size_t one_of : {1, 2, 7, 100}) {
+        SCOPED_TRACE(one_of);
+        Random random(one_of);
+        Bodies bodies = allSizes(random, 600, 0.01, Vec3::Zero());
+        bodies.add({Vec3(-inf, -inf, -inf), Vec3(inf, inf, 0)}, BodyKind::fixed);
+        const auto all = pairsOf(BroadPhaseKind::all_pairs, bodies);
+        for (std::size_t i = 0; i < bodies.size(); ++i) bodies.still.push_back(random.below(one_of) == 0 ? 0 : 1);
+        std::vector<BodyPair> expected;
+        for (const BodyPair& pair : all) {
+            if (bodies.still[pair.a] == 0 || bodies.still[pair.b] == 0) expected.push_back(pair);
+        }
+        ASSERT_GT(expected.size(), 2U);
+        for (const auto kind : {BroadPhaseKind::all_pairs, BroadPhaseKind::hash_grids}) {
+            EXPECT_EQ(pairsOf(kind, bodies, 3), expected);
+        }
+    }
+}
+
 TEST(HashGrids, EqualAllPairsOnDensePilesEverywhere) {
     Random random(2);
     for (const double far : {0.0, 1e3, -1e6, 1e9, -1e12}) {

@@ -152,6 +152,38 @@ TEST(Moments, WhatIsCalledBeforeThemIsKept) {
     }
 }
 
+/// A restored world finds everything anew; one that went on keeps the pairs and contacts of bodies that did not move.
+TEST(StillBodies, AreFoundAsIfAnewAfterEveryCall) {
+    std::vector<Call> calls = everyCall();
+    calls.push_back({"contact_margin", [](Yard& y) {
+                         Settings s = y.world.settings();
+                         s.detection.contact_margin = 0.01;
+                         y.world.setSettings(s);
+                     }});
+    calls.push_back({"setFixed twice", [](Yard& y) {
+                         for (const bool fixed : {true, false}) {
+                             for (const BodyId id : y.bodies) y.world.setFixed(id, fixed);
+                             for (int i = 0; i < 3; ++i) y.world.step();
+                         }
+                     }});
+    Yard yard(ResolutionKind::accelerated_sweeps);
+    for (int i = 0; i < 500; ++i) yard.world.step();
+    ASSERT_GT(yard.world.statistics().asleep, 10) << "there must be something still";
+    Moment settled;
+    yard.world.keep(settled);
+    for (const Call& call : calls) {
+        yard.world.load(settled);
+        for (int i = 0; i < 3; ++i) yard.world.step();
+        call.make(yard);
+        for (int i = 0; i < 20; ++i) {
+            World restored = World::restore(yard.world.save());
+            yard.world.step();
+            restored.step();
+            ASSERT_TRUE(yard.world.save() == restored.save()) << call.name << ", step " << i;
+        }
+    }
+}
+
 /// What is done to the world from outside, by the number of the step alone.
 void act(Yard& yard) {
     World& world = yard.world;
