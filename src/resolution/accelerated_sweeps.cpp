@@ -210,10 +210,15 @@ class AcceleratedSweepsResolution final : public Resolution {
     void push(const SweptContact& contact, const Vec3& impulse) {
         LocalBody& a = local_.bodies[contact.a];
         LocalBody& b = local_.bodies[contact.b];
-        a.v += a.mass_inv * impulse;
-        a.w += a.inertia_inv * contact.r_a.cross(impulse);
-        b.v -= b.mass_inv * impulse;
-        b.w -= b.inertia_inv * contact.r_b.cross(impulse);
+        // A fixed body may touch several bodies of a colour: threads may read it, but not write it.
+        if (!local_.isFixed(contact.a)) {
+            a.v += a.mass_inv * impulse;
+            a.w += a.inertia_inv * contact.r_a.cross(impulse);
+        }
+        if (!local_.isFixed(contact.b)) {
+            b.v -= b.mass_inv * impulse;
+            b.w -= b.inertia_inv * contact.r_b.cross(impulse);
+        }
     }
 
     /// Gives the contacts that slide their kinetic friction. @return whether any has another one now
