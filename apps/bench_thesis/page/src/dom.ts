@@ -14,14 +14,17 @@ const superscripts: Record<string, string> = {
   '-': '⁻', '0': '⁰', '1': '¹', '2': '²', '3': '³', '4': '⁴', '5': '⁵', '6': '⁶', '7': '⁷', '8': '⁸', '9': '⁹',
 };
 
+export function superscript(power: number): string {
+  return [...String(power)].map((c) => superscripts[c]).join('');
+}
+
 /** Four digits at most; a narrow space between thousands; powers of ten where they are needed. */
 export function formatNumber(value: number): string {
   const size = Math.abs(value);
   if (value === 0) return '0';
   if (size < 1e-3) {
     const [digits, power] = value.toExponential(1).split('e');
-    const sign = [...String(Number(power))].map((c) => superscripts[c]).join('');
-    return `${digits} × 10${sign}`.replace('-', '−');
+    return `${digits} × 10${superscript(Number(power))}`.replace('-', '−');
   }
   const [whole, rest] = String(Number(value.toPrecision(4))).split('.');
   const grouped = whole!.replace(/\B(?=(\d{3})+$)/g, '\u202f').replace('-', '−');

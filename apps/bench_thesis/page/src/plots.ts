@@ -1,6 +1,6 @@
 /** The plots: one kind for the figures, one for the overview. */
 import * as Plot from '@observablehq/plot';
-import { element, formatNumber } from './dom';
+import { element, formatNumber, superscript } from './dom';
 import type { Figure } from './report';
 
 const colours = ['var(--first)', 'var(--second)', 'var(--third)'];
@@ -54,7 +54,17 @@ function logTicks(least: number, most: number, most_ticks: number): number[] {
 
 /** Numbers that would need many zeros are written as powers of ten. */
 function logTick(y: number): string {
-  return y >= 1e-3 && y < 1e6 ? y.toLocaleString('en') : y.toExponential(0).replace('e', '·10^').replace('+', '');
+  if (y >= 1e-3 && y < 1e6) return y.toLocaleString('en');
+  const [digit, power] = y.toExponential(0).split('e');
+  return `${digit}·10${superscript(Number(power))}`;
+}
+
+/** Of a horizontal axis: a narrow plot has room for few texts. */
+function horizontalTicks(figure: Figure, lines: Point[][], width: number): number | number[] {
+  const most = width < 420 ? 5 : 8;
+  if (figure.x_scale !== 'log') return most;
+  const values = lines.flat().map(({ x }) => x);
+  return logTicks(Math.min(...values), Math.max(...values), most);
 }
 
 function draw(figure: Figure, width: number): SVGSVGElement | HTMLElement {
@@ -62,6 +72,7 @@ function draw(figure: Figure, width: number): SVGSVGElement | HTMLElement {
   const log = figure.scale === 'log';
   const values = [...lines.flat().map(({ y }) => y), ...figure.references.map(({ y }) => y)].filter((y) => !Number.isNaN(y));
   const ticks = log ? logTicks(Math.min(...values), Math.max(...values), 6) : [];
+  const horizontal = horizontalTicks(figure, lines, width);
   return Plot.plot({
     width,
     height: Math.round(Math.min(300, Math.max(210, width * 0.5))),
@@ -70,7 +81,13 @@ function draw(figure: Figure, width: number): SVGSVGElement | HTMLElement {
     marginTop: 26,
     marginBottom: 38,
     style: { background: 'transparent', fontSize: '12px', overflow: 'visible' },
-    x: { label: figure.x, type: figure.x_scale ?? 'linear', nice: false, ticks: width < 420 ? 5 : 8 },
+    x: {
+      label: figure.x,
+      type: figure.x_scale ?? 'linear',
+      nice: false,
+      ticks: horizontal,
+      ...(figure.x_scale === 'log' ? { tickFormat: logTick } : {}),
+    },
     y: log
       ? { label: figure.y, type: 'log', domain: [Math.min(...values), Math.max(...values)] }
       : { label: figure.y, grid: true, ticks: 5, tickFormat: tick },
