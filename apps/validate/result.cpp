@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace cairn::validation {
 
@@ -130,6 +131,13 @@ void Result::atLeast(std::string what, std::string unit, double measured, double
 void Result::show(std::string what, std::string unit, double measured, std::string setup, std::string note) {
     quantities.push_back(
         {std::move(what), std::move(unit), Rule::shown, {}, measured, 0, std::move(setup), std::move(note)});
+}
+
+void Result::onlyShowFrom(std::size_t first) {
+    for (Quantity& q : std::span(quantities).subspan(first)) {
+        q.rule = Rule::shown;
+        q.expected.reset();
+    }
 }
 
 std::string timeStepText(double steps_per_second) {

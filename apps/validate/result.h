@@ -1,6 +1,7 @@
 /// @file What a case of the validation says: quantities beside their expectations, orders of convergence and plots.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -80,6 +81,9 @@ struct Result {
     void atLeast(std::string what, std::string unit, double measured, double allowed, std::string setup = {},
                  std::string note = {});
     void show(std::string what, std::string unit, double measured, std::string setup = {}, std::string note = {});
+
+    /// Judges the quantities from one on no more: they are there to compare with.
+    void onlyShowFrom(std::size_t first);
 };
 
 /// A value that is measured at several time steps.

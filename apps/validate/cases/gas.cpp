@@ -94,8 +94,8 @@ Result run(const Plan& plan) {
     if (plan.isQuick()) {
         simulate(result, 960, 2, plan);
     } else {
-        simulate(result, 960, 100, plan);
-        simulate(result, 3840, 300, plan);
+        simulate(result, 960, 300, plan);
+        simulate(result, 3840, 100, plan);
     }
     return result;
 }

@@ -13,9 +13,11 @@ namespace cairn::validation {
 
 /// Settings for a gas: impacts of two balls at a time, whatever their speed. A contact is found at the end of the time
 /// step in which it begins, on average late by half of what the balls approach in a step; a margin of as much makes up
-/// for that. @param approach mean speed of the approach in an impact [m/s]
+/// for that. Nothing is moved apart: elastic balls leave each other by themselves, and a correction that moves contacts
+/// aside would make frictionless balls spin. @param approach mean speed of the approach in an impact [m/s]
 inline Settings gasSettings(double rate, double approach) {
     Settings settings = accurateSettings(rate, ResolutionKind::impulse_queue);
+    settings.correction.correction = CorrectionKind::none;
     settings.resolution.restitution_threshold = 0;
     settings.resolution.resolution_threshold = 1e-9;
     settings.detection.contact_margin = approach / rate / 2;

@@ -20,19 +20,18 @@ Standing stand(const Settings& settings, double ratio, double duration, double p
 Result run(const Plan& plan) {
     Result result;
     const double duration = plan.isQuick() ? 1 : 10;
-    const double patience = plan.isQuick() ? 3 : 60;
+    Settings fast = Settings::preset(Preset::performance, 240, g);
+    fast.sleep.sleeping = false;
     for (const double ratio : {10.0, 100.0, 1000.0, 1e4}) {
         for (const Resolver& resolver : resolvers) {
             const Settings settings = accurateSettings(960, resolver.kind);
-            judge(result, stand(settings, ratio, duration, patience, plan),
-                  fmt::format("ratio {:g}, accuracy, {}", ratio, resolver.name), duration, 1e-4, 1e-4, 1e-6);
+            judge(result, stand(settings, ratio, duration, resolver.patience(plan), plan),
+                  fmt::format("ratio {:g}, accuracy, {}", ratio, resolver.name), resolver, {duration, 1e-4, true});
         }
-        Settings fast = Settings::preset(Preset::performance, 240, g);
-        fast.sleep.sleeping = false;
         for (const Resolver& resolver : resolvers) {
             fast.resolution.resolution = resolver.kind;
-            judge(result, stand(fast, ratio, duration, patience, plan),
-                  fmt::format("ratio {:g}, performance, {}", ratio, resolver.name), duration, edge / 4, 2e-3, 1);
+            judge(result, stand(fast, ratio, duration, resolver.patience(plan), plan),
+                  fmt::format("ratio {:g}, performance, {}", ratio, resolver.name), resolver, {duration, 2e-3, false});
         }
     }
     return result;
@@ -40,11 +39,13 @@ Result run(const Plan& plan) {
 
 }  // namespace
 
-const Case mass_ratios{"mass-ratios",
-                       "Stacks",
-                       "A heavy box stands on a light one",
-                       "drift 0, overlap ≤ 0.1 mm; impulse of the ground equals the weight",
-                       "Cubes of 20 cm; the lower 1 kg, the upper 10, 100, 1000 and 10 000 kg; 10 s, sleeping off.",
-                       run};
+const Case mass_ratios{
+    "mass-ratios",
+    "Stacks",
+    "A heavy box stands on a light one",
+    "drift 0, overlap ≤ 0.1 mm; impulse of the ground equals the weight",
+    "Cubes of 20 cm; the lower 1 kg, the upper 10, 100, 1000 and 10 000 kg; 10 s, sleeping off. Judged "
+    "with accelerated_sweeps; the other resolutions are shown, for 20 s of wall time each.",
+    run};
 
 }  // namespace cairn::validation

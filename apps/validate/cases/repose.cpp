@@ -15,12 +15,13 @@ namespace {
 constexpr double tray = 10 * grain;  ///< inner width [m]
 constexpr double rim = 1 * grain;    ///< height [m]
 
+constexpr double outer = tray / 2 + 0.2 * grain;  ///< half of the outer width [m]: centres above the rim reach that far
+
 /// Angle of the flanks of the heap that stays on a square tray with a rim when more is poured onto it than it holds
-/// [°]: that of a pyramid on the rim with the volume of what stays above it.
+/// [°]: that of a pyramid with the volume of the grains whose centres are above the rim.
 double heap(double friction, double rolling, const Plan& plan) {
     Grains grains(granularSettings(), grainLaw(friction, rolling), grainLaw(friction, rolling));
     const double half = tray / 2;
-    const double outer = half + 0.2 * grain;
     grains.addBlock(Vec3(-outer, -outer, -1), Vec3(outer, outer, 0));
     grains.addBlock(Vec3(-outer, -outer, 0), Vec3(outer, -half, rim));
     grains.addBlock(Vec3(-outer, half, 0), Vec3(outer, outer, rim));
@@ -43,8 +44,8 @@ double heap(double friction, double rolling, const Plan& plan) {
         if (grains.world.pose(id).position.z() > rim) ++above;
     }
     const double volume = above * std::numbers::pi / 6 * grain * grain * grain / 0.58;
-    const double height = 3 * volume / (tray * tray);
-    return std::atan(2 * height / tray) / degree;
+    const double height = 3 * volume / (4 * outer * outer);
+    return std::atan(height / outer) / degree;
 }
 
 Result run(const Plan& plan) {
@@ -78,7 +79,7 @@ const Case repose{
     "Heaps are the steeper the more their grains resist sliding and rolling",
     "the angle rises with µ and with rolling friction",
     "450 spheres of 10 cm poured onto a tray of 10 × 10 diameters with a rim of one; the angle is that of a "
-    "pyramid with the volume of the grains above the rim at a solid fraction of 0.58.",
+    "pyramid over the outer width of the rim with the volume of the grains above it at a solid fraction of 0.58.",
     run};
 
 }  // namespace cairn::validation
