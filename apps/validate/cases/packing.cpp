@@ -58,7 +58,7 @@ void packAll(Result& result, const Shape& shape, const char* name, double looses
         const double fraction = pack(shape, friction, plan);
         result.absolute(fmt::format("solid fraction of {}", name), "", (loosest + densest) / 2, fraction,
                         (densest - loosest) / 2 + 0.005, fmt::format("µ = {:g}", friction),
-                        fmt::format("{:g} to {:g}, and 0.005 for the number of grains", loosest, densest));
+                        fmt::format("{:g} to {:g}, of real grains, and 0.005 for their number", loosest, densest));
         line.x.push_back(friction);
         line.y.push_back(fraction);
     }
