@@ -19,6 +19,10 @@ constexpr double across_part = 0.05;
 /// How much farther apart than the closest points the nearer end of a lying capsule may be, as a part of its length.
 constexpr double lying_part = 1e-5;
 
+/// How far beside the direction of contact an end of a lying capsule may have its closest points, beyond the margin, as
+/// a part of the overlap.
+constexpr double beside_part = 0.1;
+
 /// The axis of a capsule in the frame of a box.
 struct AxisInBox {
     Segment axis;
@@ -108,7 +112,10 @@ bool addLying(const AxisInBox& in, double closest, Found& found) {
         const Vec3 on_axis = in.axis.at(end);
         const Vec3 on_box = on_axis.cwiseMax(-in.half).cwiseMin(in.half);
         if (!((on_axis - on_box).squaredNorm() <= limit * limit)) return false;
-        const double distance = (on_axis - on_box).dot(found.normal) - in.radius;
+        const double apart = (on_axis - on_box).dot(found.normal);
+        const double distance = apart - in.radius;
+        const double beside = in.margin + beside_part * std::max(0.0, -distance);
+        if ((on_axis - on_box - apart * found.normal).squaredNorm() > beside * beside) return false;
         nearest = std::min(nearest, distance);
         found.points.points[found.points.size++] = {0.5 * (on_axis + on_box - in.radius * found.normal), distance};
     }

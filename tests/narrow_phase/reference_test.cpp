@@ -130,6 +130,16 @@ TEST(AllFinitePairs, AgreeWithTheReference) {
     }
 }
 
+TEST(CapsuleBox, OneThatCrossesAnEdgeAslantAgreesWithTheReference) {
+    // The other end of the part beside the edge has its closest point on a face, in another direction.
+    check({Capsule{0.28460191533685952, 0.80446220439428018},
+           Box{{0.44532275011559497, 0.83677974554106183, 0.72516566790697412}},
+           at({0.97764873048432688, 0.22392231250909234, 0.0064142402950322364}),
+           {Vec3(1.6703805559655471, 0.19321645587585928, -0.39160814379009512),
+            Quat(0.61793663041994606, 0.66786148060158212, 0.29236503528841495, 0.29434342128661467)},
+           1e-4});
+}
+
 TEST(HalfSpacePairs, AgreeWithTheReference) {
     Random random(3);
     for (int i = 0; i < 20000; ++i) {
