@@ -84,8 +84,8 @@ Pass pairsPass() {
     Pass pass;
     pass.items = bodies;
     pass.prepare = [] {};
-    pass.run = [cloud, grids, executor = Executor(1), pairs = std::make_shared<std::vector<BodyPair>>()] {
-        grids->findPairs({cloud->kind, cloud->bounds}, executor, *pairs);
+    pass.run = [cloud, grids, pairs = std::make_shared<std::vector<BodyPair>>()] {
+        grids->findPairs({cloud->kind, cloud->bounds}, Executor{}, *pairs);
         keep(*pairs);
     };
     return pass;

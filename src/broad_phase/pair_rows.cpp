@@ -39,7 +39,8 @@ void PairRows::sort(std::span<const PairBuffer> parts, std::size_t slots, const 
                     std::vector<BodyPair>& pairs) {
     std::size_t total = 0;
     for (const PairBuffer& part : parts) total += part.pairs().size();
-    const Executor workers(total < serial_limit ? 1 : executor.threads());
+    const Executor alone;
+    const Executor& workers = total < serial_limit ? alone : executor;
 
     count(parts, slots, workers);
     pairs.resize(placeRows(parts.size(), slots));

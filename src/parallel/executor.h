@@ -1,25 +1,30 @@
-/// @file Loops over ranges on several threads: the only room that knows OpenMP. Stages hand in independent work items;
-/// which thread runs which item never changes a result.
+/// @file Loops over ranges on several threads. Stages hand in independent work items; which thread runs which item
+/// never changes a result.
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
+#include "parallel/crew.h"
 #include "parallel/function_ref.h"
 
 namespace cairn {
 
 /// Runs loops on a given number of threads. Exceptions thrown by work items are rethrown after the loop (the one of
-/// the lowest thread).
+/// the lowest thread). Work items must not start loops of the same executor, and only one thread at a time may use it.
 class Executor {
   public:
-    /// @param threads 1 or more
+    /// @param threads 1 to 65 534; beyond that as many
     explicit Executor(int threads = 1);
 
     int threads() const { return threads_; }
 
+    /// Keeps the threads at hand for all loops that the work runs. Loops outside gather them anew, each for itself.
+    void together(FunctionRef<void()> work) const;
+
     /// Splits [0, count) into one contiguous block per thread ("static" of thesis §4), ascending with the thread.
     /// @param work called with (begin, end, thread), thread in [0, threads())
-    /// @param grain fewest items worth a thread of their own: starting one costs about as much as 5 µs of work
+    /// @param grain fewest items worth a thread of their own: starting one costs about as much as 1 µs of work
     void forBlocks(std::size_t count, FunctionRef<void(std::size_t, std::size_t, int)> work,
                    std::size_t grain = 512) const;
 
@@ -28,20 +33,10 @@ class Executor {
     void forEachDynamic(std::size_t count, FunctionRef<void(std::size_t, int)> work) const;
 
   private:
-    /// On a machine that is busy with other things a thread may get its turn milliseconds late, and a loop waits for
-    /// all of its threads. After such a loop the next ones run on the caller's thread alone, twice as many after each.
-    /// Only times depend on this, results never do.
-    struct Patience {
-        int paused = 0;      ///< loops still to be run alone
-        double penalty = 0;  ///< loops that were run alone after the last late one, shrinking with loops in time
-    };
-
-    bool isPaused() const { return patience_.paused > 0; }
-    /// @param lateness how long threads of a loop waited for a processor [s]
-    void judge(double lateness) const;
+    void run(int shares, FunctionRef<void(int)> work) const;
 
     int threads_;
-    mutable Patience patience_;
+    std::unique_ptr<Crew> crew_;  ///< none for one thread
 };
 
 }  // namespace cairn

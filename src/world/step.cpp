@@ -174,9 +174,7 @@ void outputStage(WorldState& world) {
     summarize(world);
 }
 
-}  // namespace
-
-void stepWorld(WorldState& world) {
+void step(WorldState& world) {
     ++world.steps;
     world.statistics = {};
     Statistics& statistics = world.statistics;
@@ -220,6 +218,12 @@ void stepWorld(WorldState& world) {
     // A quotient, not a sum: after a million steps the time is still exact to one rounding.
     const auto since = static_cast<double>(world.steps - world.steps_at_start);
     world.time = world.time_at_start + since / world.settings.steps_per_second;
+}
+
+}  // namespace
+
+void stepWorld(WorldState& world) {
+    world.executor.together([&world] { step(world); });
 }
 
 }  // namespace cairn

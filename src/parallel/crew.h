@@ -1,0 +1,61 @@
+/// @file Threads that stay at hand between the loops of a step.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <vector>
+
+#include "parallel/function_ref.h"
+
+namespace cairn {
+
+/// A caller and its helpers, who wait for loops between which the caller works alone. Starting a loop costs a fraction
+/// of a microsecond. Whoever is free takes the next share of a loop that nobody has begun: helpers who get their
+/// processor late, on a machine that is busy with other things, find their share done and keep nobody waiting.
+class Crew {
+  public:
+    static constexpr int most_threads = 0xfffe;
+
+    /// @param threads caller and helpers together, 2 to most_threads
+    explicit Crew(int threads);
+
+    bool isTogether() const { return together_; }
+    /// Runs work on the caller's thread while the helpers are at hand. Exceptions of the work are passed on.
+    void gather(FunctionRef<void()> work);
+    /// Runs work(share) once for each share in [0, shares) and returns when all have been done. If some throw, the
+    /// exception of the lowest share is thrown at the end. @pre isTogether(), shares ≤ threads, not called by a share
+    void run(int shares, FunctionRef<void(int)> work);
+
+  private:
+    /// The last loop in which a share was taken, alone on its cache line.
+    struct alignas(64) Claim {
+        std::atomic<std::uint64_t> round = 0;
+    };
+
+    void help(int helper, std::uint64_t known);
+    std::uint64_t awaitNews(std::uint64_t known);
+    void announce(std::uint64_t news);
+    void takeShare(std::uint64_t news, int share);
+
+    int threads_;
+    bool spins_;  ///< waiting threads have processors of their own
+    bool together_ = false;
+    std::uint64_t round_ = 0;  ///< number of the last loop
+    std::vector<Claim> claims_;
+
+    const FunctionRef<void(int)>* work_ = nullptr;
+    std::mutex failing_;
+    int failed_share_ = 0;
+    std::exception_ptr failure_;
+
+    alignas(64) std::atomic<std::uint64_t> news_ = 0;  ///< round and number of shares of the newest loop
+    alignas(64) std::atomic<int> unfinished_ = 0;      ///< shares of the newest loop
+    alignas(64) std::atomic<int> sleeping_ = 0;        ///< helpers that wait for awaken_
+    std::mutex sleep_;
+    std::condition_variable awaken_;
+};
+
+}  // namespace cairn
