@@ -21,38 +21,23 @@ SceneRun pouredHeap() {
     return run;
 }
 
-void addBody(const World& world, BodyId id, Pile& pile) {
+BodyIndex addBody(const World& world, BodyId id, Pile& pile) {
     const bool fixed = world.isFixed(id);
+    const BodyIndex i = pile.allocate(fixed ? BodyKind::fixed : BodyKind::dynamic);
+    pile.position[i] = world.pose(id).position;
+    if (fixed) return i;
     const double time_step = pile.settings.timeStep();
-    pile.kind.push_back(fixed ? BodyKind::fixed : BodyKind::dynamic);
-    pile.position.push_back(world.pose(id).position);
-    pile.v.push_back(fixed ? Vec3(Vec3::Zero()) : Vec3(world.linearVelocity(id) + time_step * world.gravity()));
-    pile.w.push_back(fixed ? Vec3(Vec3::Zero()) : world.angularVelocity(id));
-    pile.linear_step.push_back(time_step * pile.v.back());
-    pile.mass_inv.push_back(fixed ? 0 : 1 / world.mass(id));
-    pile.asleep.push_back(0);
-    pile.woken.push_back(WakeReason::none);
-    if (fixed) {
-        pile.inertiaInv_W.emplace_back(Mat3::Zero());
-        return;
-    }
-    const Mat3 axes = world.principalAxes(id).toRotationMatrix();
-    pile.inertiaInv_W.emplace_back(axes * world.principalInertia(id).cwiseInverse().asDiagonal() * axes.transpose());
+    pile.v[i] = world.linearVelocity(id) + time_step * world.gravity();
+    pile.w[i] = world.angularVelocity(id);
+    pile.linear_step[i] = time_step * pile.v[i];
+    pile.mass[i] = world.mass(id);
+    pile.inertia_B[i] = world.principalInertia(id);
+    pile.orientation[i] = world.principalAxes(id);
+    pile.updateMassProperties(i);
+    return i;
 }
 
 }  // namespace
-
-BodyState Pile::state() {
-    return {.kind = kind,
-            .position = position,
-            .v = v,
-            .w = w,
-            .mass_inv = mass_inv,
-            .inertiaInv_W = inertiaInv_W,
-            .linear_step = linear_step,
-            .asleep = asleep,
-            .woken = woken};
-}
 
 Pile makePile(std::size_t copies) {
     const SceneRun run = pouredHeap();
@@ -61,12 +46,8 @@ Pile makePile(std::size_t copies) {
     Pile pile;
     pile.settings = world.settings();
     for (std::size_t copy = 0; copy < copies; ++copy) {
-        const auto first = static_cast<BodyIndex>(pile.kind.size());
         std::map<BodyId, BodyIndex> index;
-        for (const BodyId id : run.ids()) {
-            index[id] = first + static_cast<BodyIndex>(index.size());
-            addBody(world, id, pile);
-        }
+        for (const BodyId id : run.ids()) index[id] = addBody(world, id, pile);
         for (const ContactInfo& info : found) {
             Contact contact;
             contact.a = index.at(info.a);

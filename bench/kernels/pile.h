@@ -4,25 +4,19 @@
 #include <vector>
 
 #include "batches/batches.h"
+#include "body/body_storage.h"
 #include "body/contact.h"
 #include "cairn/settings.h"
 
 namespace cairn::kernels {
 
-/// Owns what BodyState and BatchView look at. Everything is one batch.
-struct Pile {
-    std::vector<BodyKind> kind;
-    std::vector<Vec3> position, v, w, linear_step;
-    std::vector<double> mass_inv;
-    std::vector<Mat3> inertiaInv_W;
-    std::vector<std::uint8_t> asleep;
-    std::vector<WakeReason> woken;
+/// A batch of its own with all that BodyState and BatchView look at.
+struct Pile : BodyStorage {
     std::vector<Contact> contacts;
     std::vector<BodyIndex> bodies;       ///< the dynamic ones
     std::vector<std::uint32_t> indices;  ///< of all contacts
     Settings settings;
 
-    BodyState state();
     BatchView batch() const { return {bodies, indices}; }
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "resolution/batch_motion.h"
+
 namespace cairn {
 
 namespace {
@@ -40,19 +42,7 @@ class AwakePart final : public Resolution {
     std::size_t sharedFrom() const override { return resolution_->sharedFrom(); }
 
   private:
-    struct Velocities {
-        Vec3 v;
-        Vec3 w;
-    };
-
-    static bool rests(const BodyState& bodies, BodyIndex i) { return bodies.v[i].isZero(0) && bodies.w[i].isZero(0); }
-    static bool sleeps(const BodyState& bodies, BodyIndex i) { return bodies.asleep[i] != 0 && rests(bodies, i); }
-
-    static bool hasStillSupports(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
-        const auto holds = [&](BodyIndex i) { return !bodies.isFixed(i) || rests(bodies, i); };
-        return std::ranges::all_of(batch.contacts,
-                                   [&](std::uint32_t i) { return holds(contacts[i].a) && holds(contacts[i].b); });
-    }
+    static bool sleeps(const BodyState& bodies, BodyIndex i) { return bodies.asleep[i] != 0 && isAtRest(bodies, i); }
 
     ResolutionCounts resolvePart(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
                                  const ResolutionSettings& settings, const Executor& executor) {
@@ -106,12 +96,10 @@ class AwakePart final : public Resolution {
     void select(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
         part_bodies_.clear();
         part_contacts_.clear();
-        before_.clear();
         for (const BodyIndex i : batch.bodies) {
-            if (held_[i] != 0) continue;
-            part_bodies_.push_back(i);
-            before_.push_back({bodies.v[i], bodies.w[i]});
+            if (held_[i] == 0) part_bodies_.push_back(i);
         }
+        noteMotion(part_bodies_, bodies, before_);
         for (const std::uint32_t i : batch.contacts) {
             if (isFree(bodies, contacts[i].a) || isFree(bodies, contacts[i].b)) part_contacts_.push_back(i);
         }
@@ -189,7 +177,7 @@ class AwakePart final : public Resolution {
     std::vector<Disturbance> disturbances_;     ///< [slots] none outside of findDisturbed()
     std::vector<BodyIndex> part_bodies_;        ///< ascending
     std::vector<std::uint32_t> part_contacts_;  ///< ascending
-    std::vector<Velocities> before_;            ///< [part_bodies_]
+    std::vector<BodyMotion> before_;            ///< [part_bodies_]
     std::vector<BodyIndex> seen_;               ///< held bodies with a contact of the part
     std::vector<BodyIndex> disturbed_;
 };

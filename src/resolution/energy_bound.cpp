@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "resolution/batch_motion.h"
 #include "resolution/symmetric3.h"
 
 namespace cairn {
@@ -31,8 +32,7 @@ class EnergyBound final : public Resolution {
         if (isDriven(batch, contacts, bodies)) {
             return resolution_->resolve(batch, contacts, bodies, settings, executor);
         }
-        before_.clear();
-        for (const BodyIndex i : batch.bodies) before_.push_back({bodies.v[i], bodies.w[i]});
+        noteMotion(batch.bodies, bodies, before_);
         ResolutionCounts counts = resolution_->resolve(batch, contacts, bodies, settings, executor);
         Gain gain = gainOf(batch, bodies);
         if (!isAboveRounding(gain, batch, bodies)) return counts;
@@ -51,17 +51,9 @@ class EnergyBound final : public Resolution {
     std::size_t sharedFrom() const override { return resolution_->sharedFrom(); }
 
   private:
-    struct Velocities {
-        Vec3 v;
-        Vec3 w;
-    };
-
     static bool isDriven(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
-        const auto moves = [&](BodyIndex i) { return !bodies.v[i].isZero(0) || !bodies.w[i].isZero(0); };
-        const auto drives = [&](BodyIndex i) { return bodies.isFixed(i) && moves(i); };
         return std::ranges::any_of(batch.joints, [](const JointBlock& joint) { return joint.bounds > 0; }) ||
-               std::ranges::any_of(batch.contacts,
-                                   [&](std::uint32_t i) { return drives(contacts[i].a) || drives(contacts[i].b); });
+               !hasStillSupports(batch, contacts, bodies);
     }
 
     static bool hasHistory(const BatchView& batch, std::span<const Contact> contacts) {
@@ -73,7 +65,7 @@ class EnergyBound final : public Resolution {
         Gain gain;
         for (std::size_t n = 0; n < batch.bodies.size(); ++n) {
             const BodyIndex i = batch.bodies[n];
-            const Velocities& before = before_[n];
+            const BodyMotion& before = before_[n];
             const Vec3 dv = bodies.v[i] - before.v;
             const Vec3 dw = bodies.w[i] - before.w;
             const double mass = 1 / bodies.mass_inv[i];
@@ -89,7 +81,7 @@ class EnergyBound final : public Resolution {
         double energy = 0;
         for (std::size_t n = 0; n < batch.bodies.size(); ++n) {
             const BodyIndex i = batch.bodies[n];
-            const Velocities& before = before_[n];
+            const BodyMotion& before = before_[n];
             const Vec3 spin = inverse(Symmetric3::from(bodies.inertiaInv_W[i])) * before.w;
             energy += 0.5 * (before.v.squaredNorm() / bodies.mass_inv[i] + before.w.dot(spin));
         }
@@ -112,7 +104,7 @@ class EnergyBound final : public Resolution {
     }
 
     std::unique_ptr<Resolution> resolution_;
-    std::vector<Velocities> before_;  ///< [bodies of the batch]
+    std::vector<BodyMotion> before_;  ///< [bodies of the batch]
 };
 
 }  // namespace

@@ -1,28 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include "batches/batches.h"
-
-namespace {
-
-std::atomic<std::size_t> allocations{0};  // counted by the operators below, which replace those of the whole program
-
-}  // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* const memory = std::malloc(size > 0 ? size : 1)) return memory;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
+#include "counted_new.h"
 
 namespace cairn {
 namespace {
@@ -39,11 +18,11 @@ TEST(BatchesMemory, AWarmStepAllocatesNothing) {
     ContactsOfBodies lists;
     std::vector<std::uint32_t> order;
     const auto step = [&] {
-        const std::size_t before = allocations;
+        const std::size_t before = test::allocations;
         buildBatches(kind, contacts, scratch, batches);
         listContacts(kind, contacts, lists);
         scheduleBatches(batches, 2, order);
-        return allocations - before;
+        return test::allocations - before;
     };
     EXPECT_GT(step(), 0u) << "the counter must work";
     EXPECT_EQ(step(), 0u);

@@ -1,36 +1,12 @@
-/// @file Counts heap allocations by replacing the operators of this test program.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
-#include <cstdlib>
-#include <new>
 #include <numeric>
 #include <vector>
 
 #include "correction/contact_scene.h"
-
-namespace {
-
-std::atomic<std::int64_t>& allocations() {
-    static std::atomic<std::int64_t> count{0};
-    return count;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-    ++allocations();
-    if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
+#include "counted_new.h"
 
 namespace cairn::test {
 namespace {
@@ -58,16 +34,16 @@ TEST(PropagatedCorrection, AllocatesNothingOnceItHasSeenTheWorld) {
     const auto correction = makeCorrection(CorrectionKind::propagated);
     const auto step = [&] {
         std::copy(start.contacts.begin(), start.contacts.end(), scene.contacts.begin());
-        const std::int64_t before = allocations();
+        const std::size_t before = allocations;
         const CorrectionCounts counts =
             correction->correct({{}, indices}, table, scene.contacts, scene.state(), scene.settings);
         EXPECT_EQ(counts.corrected, 5);
         EXPECT_GE(counts.displaced, 100);
-        return allocations() - before;
+        return allocations - before;
     };
-    EXPECT_GT(step(), 0);
-    EXPECT_EQ(step(), 0);
-    EXPECT_EQ(step(), 0);
+    EXPECT_GT(step(), 0u);
+    EXPECT_EQ(step(), 0u);
+    EXPECT_EQ(step(), 0u);
 }
 
 }  // namespace

@@ -10,13 +10,7 @@
 namespace cairn::test {
 
 /// A small world of contacts. Bodies get the slots 0, 1, 2, … in the order in which they are added.
-struct ContactScene {
-    std::vector<BodyKind> kind;
-    std::vector<Vec3> position, v, w, linear_step;
-    std::vector<double> mass_inv;
-    std::vector<Mat3> inertiaInv_W;
-    std::vector<std::uint8_t> asleep;
-    std::vector<WakeReason> woken;
+struct ContactScene : BodyStorage {
     std::vector<Contact> contacts;
     CorrectionSettings settings;
 
@@ -28,16 +22,13 @@ struct ContactScene {
     }
 
     BodyIndex add(BodyKind new_kind, const Vec3& at) {
-        kind.push_back(new_kind);
-        position.push_back(at);
-        v.push_back(Vec3::Zero());
-        w.push_back(Vec3::Zero());
-        linear_step.push_back(Vec3::Zero());
-        mass_inv.push_back(new_kind == BodyKind::dynamic ? 1 : 0);
-        inertiaInv_W.push_back(new_kind == BodyKind::dynamic ? Mat3(Mat3::Identity()) : Mat3(Mat3::Zero()));
-        asleep.push_back(0);
-        woken.push_back(WakeReason::none);
-        return static_cast<BodyIndex>(kind.size() - 1);
+        const BodyIndex i = allocate(new_kind);
+        position[i] = at;
+        if (new_kind == BodyKind::dynamic) {
+            mass_inv[i] = 1;
+            inertiaInv_W[i].setIdentity();
+        }
+        return i;
     }
     BodyIndex addBody(const Vec3& at = Vec3::Zero()) { return add(BodyKind::dynamic, at); }
     BodyIndex addFixed(const Vec3& at = Vec3::Zero()) { return add(BodyKind::fixed, at); }
@@ -60,8 +51,6 @@ struct ContactScene {
         linear_step[body] = step;
         v[body] = 240 * step;
     }
-
-    BodyState state() { return {kind, position, v, w, mass_inv, inertiaInv_W, linear_step, asleep, woken}; }
 
     ContactsOfBodies contactsOfBodies() const {
         ContactsOfBodies table;

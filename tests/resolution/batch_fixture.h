@@ -40,31 +40,29 @@ struct Friction {
 };
 
 /// One batch: all bodies and contacts that were added.
-class Pile {
+class Pile : public BodyStorage {
   public:
-    std::vector<BodyKind> kind;
-    std::vector<Vec3> position, v, w, linear_step;
-    std::vector<double> mass_inv;
-    std::vector<Mat3> inertiaInv_W;
-    std::vector<std::uint8_t> asleep;
-    std::vector<WakeReason> woken;
     std::vector<Contact> contacts;
 
-    BodyIndex add(const Vec3& at, double mass, const Mat3& inertia) {
-        kind.push_back(BodyKind::dynamic);
-        return addBody(at, 1 / mass, inertia.inverse());
+    BodyIndex add(const Vec3& at, double m, const Mat3& inertia) {
+        const BodyIndex i = addFixed(at);
+        kind[i] = BodyKind::dynamic;
+        mass_inv[i] = 1 / m;
+        inertiaInv_W[i] = inertia.inverse();
+        return i;
     }
-    BodyIndex addSphere(const Vec3& at, double mass = 1, double radius = 0.5) {
-        return add(at, mass, 0.4 * mass * radius * radius * Mat3::Identity());
+    BodyIndex addSphere(const Vec3& at, double m = 1, double radius = 0.5) {
+        return add(at, m, 0.4 * m * radius * radius * Mat3::Identity());
     }
-    BodyIndex addBox(const Vec3& at, double mass, const Vec3& size) {
+    BodyIndex addBox(const Vec3& at, double m, const Vec3& size) {
         const Vec3 s = size.cwiseAbs2();
-        const Vec3 moments = mass / 12 * Vec3(s.y() + s.z(), s.x() + s.z(), s.x() + s.y());
-        return add(at, mass, moments.asDiagonal());
+        const Vec3 moments = m / 12 * Vec3(s.y() + s.z(), s.x() + s.z(), s.x() + s.y());
+        return add(at, m, moments.asDiagonal());
     }
     BodyIndex addFixed(const Vec3& at = Vec3::Zero()) {
-        kind.push_back(BodyKind::fixed);
-        return addBody(at, 0, Mat3::Zero());
+        const BodyIndex i = allocate(BodyKind::fixed);
+        position[i] = at;
+        return i;
     }
     /// @param normal from b to a
     Contact& touch(BodyIndex a, BodyIndex b, const Vec3& point, const Vec3& normal, double restitution = 0,
@@ -79,17 +77,6 @@ class Pile {
         c.kinetic_friction = friction.kinetic_coefficient;
         contacts.push_back(c);
         return contacts.back();
-    }
-    BodyState state() {
-        return {.kind = kind,
-                .position = position,
-                .v = v,
-                .w = w,
-                .mass_inv = mass_inv,
-                .inertiaInv_W = inertiaInv_W,
-                .linear_step = linear_step,
-                .asleep = asleep,
-                .woken = woken};
     }
     ResolutionCounts resolve(const ResolutionSettings& settings) {
         return resolve(*makeResolution(settings.resolution), settings);
@@ -138,19 +125,6 @@ class Pile {
             sum += 0.5 * v[i].squaredNorm() / mass_inv[i] + 0.5 * w[i].dot(inertiaInv_W[i].inverse() * w[i]);
         }
         return sum;
-    }
-
-  private:
-    BodyIndex addBody(const Vec3& at, double inverse_mass, const Mat3& inverse_inertia) {
-        position.push_back(at);
-        v.emplace_back(Vec3::Zero());
-        w.emplace_back(Vec3::Zero());
-        linear_step.emplace_back(Vec3::Zero());
-        mass_inv.push_back(inverse_mass);
-        inertiaInv_W.push_back(inverse_inertia);
-        asleep.push_back(0);
-        woken.push_back(WakeReason::none);
-        return static_cast<BodyIndex>(kind.size() - 1);
     }
 };
 

@@ -20,19 +20,11 @@ Standing stand(const Settings& settings, double ratio, double duration, double p
 Result run(const Plan& plan) {
     Result result;
     const double duration = plan.isQuick() ? 1 : 10;
-    Settings fast = Settings::preset(Preset::performance, 240, g);
-    fast.sleep.sleeping = false;
     for (const double ratio : {10.0, 100.0, 1000.0, 1e4}) {
-        for (const Resolver& resolver : resolvers) {
-            const Settings settings = accurateSettings(960, resolver.kind);
-            judge(result, stand(settings, ratio, duration, resolver.patience(plan), plan),
-                  fmt::format("ratio {:g}, accuracy, {}", ratio, resolver.name), resolver, {duration, 1e-4, true});
-        }
-        for (const Resolver& resolver : resolvers) {
-            fast.resolution.resolution = resolver.kind;
-            judge(result, stand(fast, ratio, duration, resolver.patience(plan), plan),
-                  fmt::format("ratio {:g}, performance, {}", ratio, resolver.name), resolver, {duration, 2e-3, false});
-        }
+        judgeAllResolvers(result, fmt::format("ratio {:g}", ratio), duration, plan,
+                          [&](const Settings& settings, double patience) {
+                              return stand(settings, ratio, duration, patience, plan);
+                          });
     }
     return result;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -105,6 +107,26 @@ inline void judge(Result& result, const Standing& s, const std::string& setup, c
     if (!resolver.isJudged()) result.onlyShowFrom(first);
     result.show("resolutions per step", "", s.resolutions, setup);
     result.show("wall time per step", "ms", s.ms, setup);
+}
+
+/// Builds a stack with the settings and watches it until the patience is used up [s].
+using Stand = std::function<Standing(const Settings& settings, double patience)>;
+
+/// Judges a stack with either preset and shows it with the other resolutions.
+/// @param name of the stack @param duration that it is to stand [s]
+inline void judgeAllResolvers(Result& result, const std::string& name, double duration, const Plan& plan,
+                              const Stand& stand) {
+    for (const Resolver& resolver : resolvers) {
+        judge(result, stand(accurateSettings(960, resolver.kind), resolver.patience(plan)),
+              name + ", accuracy, " + resolver.name, resolver, {duration, 1e-4, true});
+    }
+    Settings fast = Settings::preset(Preset::performance, 240, g);
+    fast.sleep.sleeping = false;
+    for (const Resolver& resolver : resolvers) {
+        fast.resolution.resolution = resolver.kind;
+        judge(result, stand(fast, resolver.patience(plan)), name + ", performance, " + resolver.name, resolver,
+              {duration, 2e-3, false});
+    }
 }
 
 }  // namespace cairn::validation

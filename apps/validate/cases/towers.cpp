@@ -23,19 +23,11 @@ Standing stand(const Settings& settings, int boxes, double duration, double pati
 Result run(const Plan& plan) {
     Result result;
     const double duration = plan.isQuick() ? 2 : 60;
-    Settings fast = Settings::preset(Preset::performance, 240, g);
-    fast.sleep.sleeping = false;
     for (const int boxes : {10, 20, 40}) {
-        for (const Resolver& resolver : resolvers) {
-            const Settings settings = accurateSettings(960, resolver.kind);
-            judge(result, stand(settings, boxes, duration, resolver.patience(plan), plan),
-                  fmt::format("{} boxes, accuracy, {}", boxes, resolver.name), resolver, {duration, 1e-4, true});
-        }
-        for (const Resolver& resolver : resolvers) {
-            fast.resolution.resolution = resolver.kind;
-            judge(result, stand(fast, boxes, duration, resolver.patience(plan), plan),
-                  fmt::format("{} boxes, performance, {}", boxes, resolver.name), resolver, {duration, 2e-3, false});
-        }
+        judgeAllResolvers(result, fmt::format("{} boxes", boxes), duration, plan,
+                          [&](const Settings& settings, double patience) {
+                              return stand(settings, boxes, duration, patience, plan);
+                          });
     }
     return result;
 }

@@ -28,20 +28,10 @@ Standing stand(const Settings& settings, int rows, double duration, double patie
 Result run(const Plan& plan) {
     Result result;
     const double duration = plan.isQuick() ? 1 : 60;
-    Settings fast = Settings::preset(Preset::performance, 240, g);
-    fast.sleep.sleeping = false;
     for (const int rows : {10, 30}) {
-        const int bricks = rows * (rows + 1) / 2;
-        for (const Resolver& resolver : resolvers) {
-            const Settings settings = accurateSettings(960, resolver.kind);
-            judge(result, stand(settings, rows, duration, resolver.patience(plan), plan),
-                  fmt::format("{} bricks, accuracy, {}", bricks, resolver.name), resolver, {duration, 1e-4, true});
-        }
-        for (const Resolver& resolver : resolvers) {
-            fast.resolution.resolution = resolver.kind;
-            judge(result, stand(fast, rows, duration, resolver.patience(plan), plan),
-                  fmt::format("{} bricks, performance, {}", bricks, resolver.name), resolver, {duration, 2e-3, false});
-        }
+        judgeAllResolvers(
+            result, fmt::format("{} bricks", rows * (rows + 1) / 2), duration, plan,
+            [&](const Settings& settings, double patience) { return stand(settings, rows, duration, patience, plan); });
     }
     return result;
 }

@@ -1,4 +1,4 @@
-#include "kernels.h"
+#include "bench/kernels.h"
 
 namespace cairn::bench {
 

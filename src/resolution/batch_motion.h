@@ -1,0 +1,37 @@
+/// @file How the bodies of a batch move: what the wrappers of resolutions note and ask.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "batches/batches.h"
+#include "body/body_storage.h"
+#include "body/contact.h"
+
+namespace cairn {
+
+/// The velocities of a body.
+struct BodyMotion {
+    Vec3 v;  ///< [m/s, W]
+    Vec3 w;  ///< [rad/s, W]
+};
+
+inline bool isAtRest(const BodyState& bodies, BodyIndex i) {
+    return bodies.v[i].isZero(0) && bodies.w[i].isZero(0);
+}
+
+/// @param motion out, one entry per body; keeps its memory
+inline void noteMotion(std::span<const BodyIndex> noted, const BodyState& bodies, std::vector<BodyMotion>& motion) {
+    motion.clear();
+    for (const BodyIndex i : noted) motion.push_back({bodies.v[i], bodies.w[i]});
+}
+
+/// Whether no fixed body that moves touches the batch.
+inline bool hasStillSupports(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
+    const auto holds = [&](BodyIndex i) { return !bodies.isFixed(i) || isAtRest(bodies, i); };
+    return std::ranges::all_of(batch.contacts,
+                               [&](std::uint32_t i) { return holds(contacts[i].a) && holds(contacts[i].b); });
+}
+
+}  // namespace cairn
