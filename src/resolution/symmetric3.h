@@ -7,14 +7,15 @@
 
 namespace cairn {
 
-/// Rows (xx xy xz), (xy yy yz), (xz yz zz).
-struct Symmetric3 {
-    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+/// Rows (xx xy xz), (xy yy yz), (xz yz zz). @tparam Vector three of the numbers
+template <class Number, class Vector>
+struct BasicSymmetric3 {
+    Number xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
 
     /// Takes the upper triangle. @pre m is symmetric up to rounding
-    static Symmetric3 from(const Mat3& m) { return {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)}; }
+    static BasicSymmetric3 from(const Mat3& m) { return {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)}; }
 
-    Vec3 operator*(const Vec3& u) const {
+    [[gnu::always_inline]] Vector operator*(const Vector& u) const {
         return {xx * u.x() + xy * u.y() + xz * u.z(), xy * u.x() + yy * u.y() + yz * u.z(),
                 xz * u.x() + yz * u.y() + zz * u.z()};
     }
@@ -26,12 +27,15 @@ struct Symmetric3 {
     }
 };
 
+using Symmetric3 = BasicSymmetric3<double, Vec3>;
+
 /// The inverse by cofactors. @return not finite if m is singular
-inline Symmetric3 inverse(const Symmetric3& m) {
-    const double cxx = m.yy * m.zz - m.yz * m.yz;
-    const double cxy = m.xz * m.yz - m.xy * m.zz;
-    const double cxz = m.xy * m.yz - m.xz * m.yy;
-    const double s = 1 / (m.xx * cxx + m.xy * cxy + m.xz * cxz);
+template <class Number, class Vector>
+[[gnu::always_inline]] inline BasicSymmetric3<Number, Vector> inverse(const BasicSymmetric3<Number, Vector>& m) {
+    const Number cxx = m.yy * m.zz - m.yz * m.yz;
+    const Number cxy = m.xz * m.yz - m.xy * m.zz;
+    const Number cxz = m.xy * m.yz - m.xz * m.yy;
+    const Number s = 1 / (m.xx * cxx + m.xy * cxy + m.xz * cxz);
     return {s * cxx,
             s * cxy,
             s * cxz,

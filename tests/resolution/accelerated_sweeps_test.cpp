@@ -1,6 +1,8 @@
 /// Sweeps with accumulated impulses, and the direct step for what rests.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "resolution/batch_fixture.h"
 
 namespace cairn {
@@ -98,6 +100,56 @@ TEST(AcceleratedSweeps, KeepMomentumWithAndWithoutColours) {
         pile.resolve(settings);
         EXPECT_LT((pile.momentum() - momentum).norm(), 1e-12 * static_cast<double>(contacts));
         EXPECT_LT((pile.angularMomentum() - angular).norm(), 1e-11 * static_cast<double>(contacts));
+    }
+}
+
+/// Two bodies with a few contacts, or one that touches the fixed body 0. @param number picks what kind of pair
+void addPair(Pile& pile, std::size_t number, test::Random& random) {
+    const auto body = [&](double mass) {
+        const BodyIndex i = pile.add(random.vector(1), mass, test::randomInertia(random, mass));
+        pile.v[i] = random.vector(1);
+        pile.w[i] = random.vector(1);
+        return i;
+    };
+    const bool singular = number % 11 == 3;
+    const BodyIndex a = number % 5 == 1 ? 0 : body(random.uniform(0.5, 3));
+    const BodyIndex b = body(singular ? 1e200 : random.uniform(0.5, 3));
+    for (std::size_t i = 0; i < 1 + number % 4 + number % 3; ++i) {
+        pile.touch(a, b, random.vector(1), random.vector(1).normalized(), 0.25, {0.4, 0.4});
+    }
+    if (number % 13 == 5) pile.v[b].x() = std::numeric_limits<double>::quiet_NaN();
+}
+
+bool isSame(const Vec3& x, const Vec3& y) {
+    return (x - y).norm() <= 1e-12 * y.norm() || (x.hasNaN() && y.hasNaN());
+}
+
+TEST(AcceleratedSweeps, TreatFourPairsAtOnceAsEachAlone) {
+    ResolutionSettings settings = sweeping();
+    settings.sweep_limit = settings.moving_sweep_limit = 1;
+    constexpr std::size_t pairs = 400;
+    Pile all;
+    all.addFixed();
+    test::Random random(11);
+    for (std::size_t number = 0; number < pairs; ++number) addPair(all, number, random);
+    ASSERT_GT(all.contacts.size(), 512U);
+    all.resolve(settings);
+
+    random = test::Random(11);
+    std::size_t next = 1;
+    std::size_t next_contact = 0;
+    for (std::size_t number = 0; number < pairs; ++number) {
+        Pile alone;
+        alone.addFixed();
+        addPair(alone, number, random);
+        alone.resolve(settings);
+        for (std::size_t i = 1; i < alone.v.size(); ++i, ++next) {
+            EXPECT_TRUE(isSame(all.v[next], alone.v[i])) << number;
+            EXPECT_TRUE(isSame(all.w[next], alone.w[i])) << number;
+        }
+        for (const Contact& contact : alone.contacts) {
+            EXPECT_TRUE(isSame(all.contacts[next_contact++].impulse, contact.impulse)) << number;
+        }
     }
 }
 

@@ -1,0 +1,27 @@
+#include "resolution/body_direction.h"
+
+#include "resolution/sweeper.h"
+
+namespace cairn {
+
+void BodyDirection::note(const LocalBatch& batch, const Executor& executor) {
+    before_.resize(batch.dynamic_bodies);
+    forEach(before_.size(), executor, [&](std::size_t i) { before_[i] = {batch.bodies[i].v, batch.bodies[i].w}; });
+}
+
+void BodyDirection::restart(const LocalBatch& batch) {
+    direction_.assign(batch.dynamic_bodies, {Vec3::Zero(), Vec3::Zero()});
+}
+
+void BodyDirection::accelerate(double beta, LocalBatch& batch, const Executor& executor) {
+    forEach(before_.size(), executor, [&](std::size_t i) {
+        LocalBody& body = batch.bodies[i];
+        const Twist change{body.v - before_[i].v, body.w - before_[i].w};
+        const Twist step{beta * direction_[i].v, beta * direction_[i].w};
+        body.v += step.v;
+        body.w += step.w;
+        direction_[i] = {change.v + step.v, change.w + step.w};
+    });
+}
+
+}  // namespace cairn

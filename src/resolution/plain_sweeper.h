@@ -1,0 +1,50 @@
+/// @file Sweeps that visit one contact at a time.
+#pragma once
+
+#include <vector>
+
+#include "resolution/sweeper.h"
+#include "resolution/swept_contact.h"
+
+namespace cairn {
+
+/// For batches with joints or rolling friction, and for those without many contacts: contacts are visited from body to
+/// body, which carries impulses farther in a sweep than any other order.
+class PlainSweeper final : public Sweeper {
+  public:
+    bool begin(const SweptBatch& swept) override;
+    std::size_t size() const override { return contacts_.size(); }
+    void sweep(const SweptBatch& swept) override;
+    void note(const SweptBatch& swept) override;
+    SweepChange change(const SweptBatch& swept) override;
+    void accelerate(double beta, const SweptBatch& swept) override;
+    void restart() override;
+    bool releaseSliding(const SweptBatch& swept) override;
+    void finish(const SweptBatch& swept) override;
+    void copyTo(std::vector<SweptContact>& contacts, const LocalBatch&) const override { contacts = contacts_; }
+    void setImpulse(std::size_t contact, const Vec3& impulse) override { contacts_[contact].impulse = impulse; }
+
+  private:
+    /// The angular impulse of a contact that resists rolling; contact coordinates.
+    struct Rolling {
+        Vec3 impulse = Vec3::Zero();    ///< accumulated, on A [N·m·s]
+        Vec3 direction = Vec3::Zero();  ///< last direction of the conjugate gradients [N·m·s]
+        Vec3 before = Vec3::Zero();     ///< at the beginning of the sweep [N·m·s]
+    };
+
+    void beginContact(std::size_t i, const SweptBatch& swept);
+    void visit(SweptContact& contact, LocalBatch& local);
+    void visitFramed(std::size_t i, LocalBatch& local);
+    void visitRolling(SweptContact& contact, const ContactFrame& frame, LocalBatch& local);
+    void addRollingChange(const LocalBatch& local, SweepChange& change) const;
+    void settleFrames(const SweptBatch& swept);
+
+    bool framed_ = false;                 ///< the batch has frames of the contacts
+    bool moving_ = false;                 ///< some contact closes faster than one at rest does
+    std::vector<SweptContact> contacts_;  ///< in the batch's order
+    std::vector<Rolling> rolling_;        ///< as LocalBatch::rolling
+    std::vector<Vec3> before_;            ///< [contacts] impulses at the beginning of the sweep [N·s]
+    std::vector<Vec3> direction_;         ///< [contacts] [N·s]
+};
+
+}  // namespace cairn
