@@ -50,12 +50,11 @@ class AcceleratedSweepsResolution final : public Resolution {
         if (framed) {
             local_.gather(batch, contacts, bodies);
         } else {
-            local_.contacts.clear();
             local_.gatherBodies(batch, contacts, bodies);
         }
         const bool wide = !framed && batch.contacts.size() >= shared_contacts;
         Sweeper& sweeper = wide ? static_cast<Sweeper&>(wide_) : plain_;
-        const SweptBatch swept{local_, batch, contacts, bodies, settings, executor};
+        const SweptBatch swept{local_, batch, contacts, bodies, settings, executor, framed};
         const bool moving = sweeper.begin(swept);
         const Sweeps sweeps{
             .limit = sweepLimit(sweeper.size(), moving, settings),

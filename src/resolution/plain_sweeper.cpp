@@ -16,7 +16,7 @@ void pushBodies(const SweptContact& contact, const Vec3& impulse, LocalBatch& lo
 
 bool PlainSweeper::begin(const SweptBatch& swept) {
     const std::size_t count = swept.batch.contacts.size();
-    framed_ = !swept.local.contacts.empty();
+    framed_ = swept.framed;
     moving_ = false;
     rolling_.assign(framed_ ? swept.local.rolling.size() : 0, {});
     contacts_.resize(count);

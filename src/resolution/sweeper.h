@@ -21,6 +21,7 @@ struct SweptBatch {
     const BodyState& bodies;
     const ResolutionSettings& settings;
     const Executor& executor;
+    bool framed;  ///< local has frames of the contacts: there are joints, or rolling friction
 };
 
 /// How much a sweep changed.

@@ -138,6 +138,28 @@ bool isExcluded(std::span<const BodyPair> excluded, const BodyPair& pair) {
     return !excluded.empty() && std::binary_search(excluded.begin(), excluded.end(), pair, before);
 }
 
+/// Threads own ascending blocks of the sorted pairs, so joining them in order keeps the contacts sorted.
+void joinContacts(const Executor& executor, StepData& data) {
+    std::size_t total = 0;
+    for (const auto& contacts : data.thread_contacts) total += contacts.size();
+    if (data.thread_contacts.front().size() == total) {
+        std::swap(data.contacts, data.thread_contacts.front());
+        return;
+    }
+    data.contacts.resize(total);
+    executor.forBlocks(
+        data.thread_contacts.size(),
+        [&](std::size_t begin, std::size_t end, int) {
+            std::size_t first = 0;
+            for (std::size_t t = 0; t < begin; ++t) first += data.thread_contacts[t].size();
+            for (std::size_t t = begin; t < end; ++t) {
+                std::ranges::copy(data.thread_contacts[t], data.contacts.begin() + static_cast<std::ptrdiff_t>(first));
+                first += data.thread_contacts[t].size();
+            }
+        },
+        1);
+}
+
 }  // namespace
 
 void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, BroadPhase& broad_phase, double margin,
@@ -168,11 +190,7 @@ void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, B
             }
         },
         pair_grain);
-    // Threads own ascending blocks of the sorted pairs, so joining them in order keeps the contacts sorted.
-    data.contacts.clear();
-    for (const auto& contacts : data.thread_contacts) {
-        data.contacts.insert(data.contacts.end(), contacts.begin(), contacts.end());
-    }
+    joinContacts(executor, data);
 }
 
 void forgetDisplaced(const BodyStorage& bodies, StillBodies& still) {
