@@ -28,14 +28,14 @@ class AwakePart final : public Resolution {
             std::ranges::count_if(batch.bodies, [&](BodyIndex i) { return sleeps(bodies, i); }));
         const bool still = batch.joints.empty() && sleepers > 0 && hasStillSupports(batch, contacts, bodies);
         if (still && sleepers == batch.bodies.size()) {
-            for (const std::uint32_t i : batch.contacts) contacts[i].impulse += contacts[i].last_impulse;
+            forEachContact(batch, contacts, executor, [](Contact& c) { c.impulse += c.last_impulse; });
             return {};
         }
         if (still && sleepers_ == Sleepers::remain && settings.wake_speed > 0) {
             return resolvePart(batch, contacts, bodies, settings, executor);
         }
         const ResolutionCounts counts = resolution_->resolve(batch, contacts, bodies, settings, executor);
-        for (const std::uint32_t i : batch.contacts) contacts[i].reference_impulse = contacts[i].impulse;
+        forEachContact(batch, contacts, executor, [](Contact& c) { c.reference_impulse = c.impulse; });
         return counts;
     }
 
@@ -43,6 +43,14 @@ class AwakePart final : public Resolution {
 
   private:
     static bool sleeps(const BodyState& bodies, BodyIndex i) { return bodies.asleep[i] != 0 && isAtRest(bodies, i); }
+
+    template <class Work>
+    static void forEachContact(const BatchView& batch, std::span<Contact> contacts, const Executor& executor,
+                               const Work& work) {
+        executor.forBlocks(batch.contacts.size(), [&](std::size_t begin, std::size_t end, int) {
+            for (std::size_t i = begin; i < end; ++i) work(contacts[batch.contacts[i]]);
+        });
+    }
 
     ResolutionCounts resolvePart(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
                                  const ResolutionSettings& settings, const Executor& executor) {
@@ -69,13 +77,12 @@ class AwakePart final : public Resolution {
             const auto still_held = std::ranges::count_if(batch.bodies, [&](BodyIndex i) { return held_[i] != 0; });
             if (!isWorthwhile(static_cast<std::size_t>(still_held), batch)) wakeAll(batch, bodies);
         }
-        for (const std::uint32_t i : batch.contacts) {
-            Contact& contact = contacts[i];
+        forEachContact(batch, contacts, executor, [&](Contact& contact) {
             const bool a = isFree(bodies, contact.a);
             const bool b = isFree(bodies, contact.b);
             if (!a && !b) contact.impulse += contact.last_impulse;
             if ((a || isNotHeld(contact.a)) && (b || isNotHeld(contact.b))) contact.reference_impulse = contact.impulse;
-        }
+        });
         for (const BodyIndex i : batch.bodies) held_[i] = 0;
         return counts;
     }

@@ -16,7 +16,7 @@ constexpr std::uint32_t none = UINT32_MAX;
 constexpr std::size_t most_alike = 16;
 
 /// Fewest groups worth a thread of their own.
-constexpr std::size_t group_grain = 8;
+constexpr std::size_t group_grain = 24;
 
 /// Groups of contacts worth a thread of their own in simple loops.
 constexpr std::size_t wide_grain = loop_grain / lane_count;

@@ -1,27 +1,24 @@
 #include "sleeping/sleeping.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "math/tolerances.h"
 
 namespace cairn {
 
-void countSupports(std::span<const BodyKind> kind, std::span<const Contact> contacts,
-                   const ContactsOfBodies& contacts_of, const Vec3& acceleration, const Executor& executor,
+void countSupports(std::span<const BodyKind> kind, std::span<const Contact> contacts, const Vec3& acceleration,
                    std::span<std::int32_t> supports) {
+    std::ranges::fill(supports, 0);
     const double magnitude = acceleration.norm();
-    const Vec3 down = magnitude > 0 ? Vec3(acceleration / magnitude) : Vec3(Vec3::Zero());
-    executor.forBlocks(kind.size(), [&](std::size_t begin, std::size_t end, int) {
-        for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
-            supports[i] = 0;
-            if (kind[i] != BodyKind::dynamic) continue;
-            for (const std::uint32_t c : contacts_of[i]) {
-                // The normal points to A: A falls into the contact against it, B along it.
-                const double into = contacts[c].normal.dot(down) * (contacts[c].a == i ? -1.0 : 1.0);
-                if (into > perpendicular_cosine) ++supports[i];
-            }
-        }
-    });
+    if (!(magnitude > 0)) return;
+    const Vec3 down = acceleration / magnitude;
+    for (const Contact& contact : contacts) {
+        // The normal points to A: A falls into the contact against it, B along it.
+        const double into = contact.normal.dot(down);
+        const BodyIndex fallen = into < 0 ? contact.a : contact.b;
+        if (std::abs(into) > perpendicular_cosine && kind[fallen] == BodyKind::dynamic) ++supports[fallen];
+    }
 }
 
 void wakeUnsupported(const BodyState& bodies, std::span<const std::int32_t> before, std::span<const std::int32_t> now,

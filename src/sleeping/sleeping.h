@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <span>
 
-#include "batches/batches.h"
 #include "body/body_storage.h"
 #include "body/contact.h"
 #include "cairn/settings.h"
@@ -21,8 +20,7 @@ inline double squaredMotion(const Vec3& v, const Vec3& w, double r_max) {
 /// Counts for every dynamic body its contacts in the direction of gravity: those into which gravity pushes it.
 /// @param acceleration sum of the global accelerations [m/s², W]; zero = no body has such a contact
 /// @param supports [slots] out
-void countSupports(std::span<const BodyKind> kind, std::span<const Contact> contacts,
-                   const ContactsOfBodies& contacts_of, const Vec3& acceleration, const Executor& executor,
+void countSupports(std::span<const BodyKind> kind, std::span<const Contact> contacts, const Vec3& acceleration,
                    std::span<std::int32_t> supports);
 
 /// Wakes sleeping bodies that lost a support since the last step (condition 5) or have none (condition 6).

@@ -180,10 +180,11 @@ void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, B
                 const BodyPair& pair = data.pairs[i];
                 if (isExcluded(data.excluded, pair)) continue;
                 const PairProperties& properties = materials.pair(bodies.material[pair.a], bodies.material[pair.b]);
-                const auto last =
-                    data.still.areStill(pair.a, pair.b) ? last_contacts.of(pair) : std::span<const Contact>();
-                // Without one the pair is tested again: joints may have kept it apart.
-                if (last.empty()) collidePair(bodies, pair, properties, margin, manifold, contacts);
+                const bool still = data.still.areStill(pair.a, pair.b);
+                const auto last = still ? last_contacts.of(pair) : std::span<const Contact>();
+                if (last.empty() && !(still && data.still.all_tested)) {
+                    collidePair(bodies, pair, properties, margin, manifold, contacts);
+                }
                 for (const Contact& c : last) {
                     contacts.push_back(contactOf(pair, c.point, c.normal, c.distance, properties));
                 }
@@ -191,6 +192,7 @@ void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, B
         },
         pair_grain);
     joinContacts(executor, data);
+    data.still.all_tested = data.excluded.empty();
 }
 
 void forgetDisplaced(const BodyStorage& bodies, StillBodies& still) {

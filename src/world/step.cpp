@@ -96,7 +96,7 @@ void velocityStage(WorldState& world) {
     StepData& data = world.data;
     const Vec3 acceleration = world.gravity + world.global_acceleration;
     data.supports.resize(world.bodies.slots());
-    countSupports(world.bodies.kind, data.contacts, data.contacts_of, acceleration, world.executor, data.supports);
+    countSupports(world.bodies.kind, data.contacts, acceleration, data.supports);
     if (!acceleration.isZero(0)) countJointSupports(world, data.supports);
     // Without a global acceleration no direction is "down": sleeping bodies then stay asleep until something else
     // happens to them.

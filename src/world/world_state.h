@@ -60,6 +60,7 @@ struct StillBodies {
     std::vector<Place> places;        ///< [slots] at the last detection
     std::vector<std::uint8_t> still;  ///< [slots] 1 = at the same place as at the detection before
     double margin = 0;                ///< contact margin of the last detection [m]
+    bool all_tested = false;          ///< the last detection tested every near pair: joints kept none apart
 
     bool areStill(BodyIndex a, BodyIndex b) const { return (still[a] & still[b]) != 0; }
 };

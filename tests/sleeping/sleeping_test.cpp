@@ -22,21 +22,9 @@ struct Fixture {
         }
     }
 
-    void connect() {
-        of_bodies.begin.assign(bodies.slots() + 1, 0);
-        of_bodies.contacts.clear();
-        for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-            for (std::uint32_t c = 0; c < contacts.size(); ++c) {
-                if (contacts[c].a == i || contacts[c].b == i) of_bodies.contacts.push_back(c);
-            }
-            of_bodies.begin[i + 1] = static_cast<std::uint32_t>(of_bodies.contacts.size());
-        }
-    }
-
     std::vector<std::int32_t> supports(const Vec3& acceleration) {
-        connect();
         std::vector<std::int32_t> result(bodies.slots());
-        countSupports(bodies.kind, contacts, of_bodies, acceleration, one_thread, result);
+        countSupports(bodies.kind, contacts, acceleration, result);
         return result;
     }
 
@@ -47,7 +35,6 @@ struct Fixture {
 
     BodyStorage bodies;
     std::vector<Contact> contacts;
-    ContactsOfBodies of_bodies;
 };
 
 const Vec3 gravity(0, 0, -10);
