@@ -1,6 +1,8 @@
 #include "integration/integration.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "math/rotation.h"
 #include "sleeping/sleeping.h"
@@ -97,6 +99,16 @@ void advancePositions(BodyStorage& bodies, const IntegrationSettings& settings, 
     });
 }
 
+double addInSteps(double velocity, double gain, std::int64_t step) {
+    constexpr std::int64_t period = 4096;
+    const double sum = velocity + gain;
+    const double larger = std::max(std::abs(velocity), std::abs(sum));
+    if (!std::isnormal(larger)) return sum;
+    const double unit = std::ldexp(1, std::ilogb(larger) - (std::numeric_limits<double>::digits - 1));
+    const auto given = [&](std::int64_t steps) { return std::round(static_cast<double>(steps) * gain / unit) * unit; };
+    return velocity + (given(step % period + 1) - given(step % period));
+}
+
 Vec3 accelerationOf(const BodyStorage& bodies, BodyIndex i, const Vec3& acceleration,
                     const GravityDampingSettings& settings) {
     const double threshold = settings.damping_threshold * settings.damping_threshold;
@@ -106,12 +118,16 @@ Vec3 accelerationOf(const BodyStorage& bodies, BodyIndex i, const Vec3& accelera
 }
 
 void advanceVelocities(BodyStorage& bodies, const Vec3& acceleration, const GravityDampingSettings& settings,
-                       double time_step, const Executor& executor) {
+                       double time_step, const Executor& executor, std::optional<std::int64_t> step) {
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             if (bodies.kind[i] == BodyKind::dynamic && bodies.asleep[i] == 0) {
                 const Vec3 torque = bodies.torque[i] + bodies.constant_torque[i];
-                bodies.v[i] += accelerationOf(bodies, static_cast<BodyIndex>(i), acceleration, settings) * time_step;
+                const Vec3 gain = accelerationOf(bodies, static_cast<BodyIndex>(i), acceleration, settings) * time_step;
+                for (int axis = 0; axis < 3; ++axis) {
+                    double& v = bodies.v[i][axis];
+                    v = step ? addInSteps(v, gain[axis], *step) : v + gain[axis];
+                }
                 bodies.w[i] += bodies.inertiaInv_W[i] * torque * time_step;
             }
             bodies.force[i].setZero();
@@ -131,6 +147,13 @@ double speedChange(const BodyStorage& bodies, const VelocitiesBefore& before, st
 }
 
 }  // namespace
+
+void notePositions(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before) {
+    before.position.resize(bodies.slots());
+    executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t i = begin; i < end; ++i) before.position[i] = bodies.position[i];
+    });
+}
 
 void noteVelocities(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before) {
     before.v.resize(bodies.slots());
@@ -209,7 +232,15 @@ void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, s
             if (bodies.kind[i] != BodyKind::dynamic || bodies.asleep[i] != 0) continue;
             if (!jointed.empty() && jointed[i] != 0) continue;
             if (!(speedChange(bodies, before, i) <= smooth_multiple * before.forced[i])) continue;
-            bodies.position[i] += (bodies.v[i] - before.v[i]) * (time_step / 2);
+            const Vec3 missing = (bodies.v[i] - before.v[i]) * (time_step / 2);
+            // Added to the way first, where nothing else moved the body: in free fall it is the same in all steps, and
+            // would be rounded in the same direction in all of them.
+            const Vec3& begun = before.position[i];
+            if (bodies.position[i] == begun + bodies.linear_step[i]) {
+                bodies.position[i] = begun + (bodies.linear_step[i] + missing);
+            } else {
+                bodies.position[i] += missing;
+            }
             const Vec3 dw = bodies.w[i] - before.w[i];
             if (dw.isZero(0)) continue;
             rotateUniformly(bodies.orientation[i], dw / 2, time_step);

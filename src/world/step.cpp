@@ -109,7 +109,7 @@ void velocityStage(WorldState& world) {
     const bool touching = world.settings.resolution.restitution_speed == RestitutionSpeed::touching;
     if (exact || touching) noteVelocities(world.bodies, world.executor, data.before);
     advanceVelocities(world.bodies, acceleration, world.settings.gravity_damping, world.settings.timeStep(),
-                      world.executor);
+                      world.executor, exact ? std::optional(world.steps) : std::nullopt);
     applySprings(world.springs, world.bodies, world.settings.timeStep());
     quarantine(world);
     if (exact) noteForced(world.bodies, world.executor, data.before);
@@ -188,6 +188,7 @@ void step(WorldState& world) {
     });
     measureIfAsked(world, Measured::begin);
     timed(statistics, Stage::positions, [&] {
+        if (world.settings.integration.exact_flight) notePositions(world.bodies, world.executor, world.data.before);
         const JointFlight::Motion motion{world.settings.integration, world.settings.gravity_damping,
                                          world.gravity + world.global_acceleration, world.settings.timeStep(),
                                          world.data.contacts};

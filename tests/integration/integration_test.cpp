@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "integration/springs.h"
 
 namespace cairn {
@@ -97,6 +101,57 @@ TEST(Velocities, ForcesTorquesAndGravityActForOneStep) {
     advanceVelocities(bodies, Vec3::Zero(), off, 0.1, one_thread);
     EXPECT_TRUE(bodies.v[i].isApprox(Vec3(0.2, 0.2, -1)));
     EXPECT_TRUE(bodies.w[i].isApprox(Vec3(0, 0.1, 0.2)));
+}
+
+TEST(Velocities, AddingInStepsSumsToTheWholeWithoutRoundingInOneDirection) {
+    for (const double acceleration : {-9.81, 2e-3, 1e5}) {
+        const double gain = acceleration / 3840;
+        double v = 60;
+        double rounded = 60;
+        for (int step = 1; step <= 38400; ++step) {
+            const double next = addInSteps(v, gain, step);
+            // Never off by more than a unit in the last place, or the rounding of 4096 gains together.
+            EXPECT_NEAR(next, v + gain, 2.3e-16 * std::max(std::abs(v + gain), std::abs(4096 * gain)));
+            v = next;
+            rounded += gain;
+        }
+        const double exact = 60 + 10 * acceleration;
+        EXPECT_LT(std::abs(v - exact), 2e-14 * std::abs(exact)) << acceleration;
+        EXPECT_GT(std::abs(rounded - exact), 5e-14 * std::abs(exact)) << "so it is needed; " << acceleration;
+    }
+}
+
+TEST(Velocities, AddingInStepsAddsNothingNotANumberAndInfinities) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(addInSteps(0, 0, 7), 0);
+    EXPECT_EQ(addInSteps(3, 0, 7), 3);
+    EXPECT_EQ(addInSteps(3, -3, 7), 0);
+    EXPECT_EQ(addInSteps(1, infinity, 7), infinity);
+    EXPECT_TRUE(std::isnan(addInSteps(std::nan(""), 1, 7)));
+    EXPECT_NEAR(addInSteps(0, -1e-3, 4095), -1e-3, 1e-15);
+}
+
+TEST(Positions, CompletingFreeFallMeetsTheParabolaTo12DigitsAndLeavesDisplacedBodiesWhereTheyAre) {
+    BodyStorage bodies;
+    const BodyIndex free = addBody(bodies, 1, Vec3::Ones());
+    const BodyIndex displaced = addBody(bodies, 1, Vec3::Ones());
+    const double time_step = 1.0 / 3840;
+    const Vec3 gravity(0, 0, -9.81);
+    const Vec3 displacement(0, 0, 0.25);
+    for (const BodyIndex i : {free, displaced}) bodies.v[i] = Vec3(3, -4, 60);
+    VelocitiesBefore before;
+    for (int step = 1; step <= 38400; ++step) {
+        notePositions(bodies, one_thread, before);
+        advancePositions(bodies, {}, time_step, one_thread);
+        if (step == 100) bodies.position[displaced] += displacement;
+        noteVelocities(bodies, one_thread, before);
+        advanceVelocities(bodies, gravity, {.damping_threshold = 0}, time_step, one_thread, step);
+        noteForced(bodies, one_thread, before);
+        completeSmoothMotion(bodies, before, {}, time_step, one_thread);
+    }
+    const Vec3 exact(30, -40, 600 - 490.5);
+    EXPECT_LT((bodies.position[free] - exact).norm() / exact.norm(), 3e-13);
+    EXPECT_LT((bodies.position[displaced] - exact - displacement).norm() / exact.norm(), 1e-11);
 }
 
 TEST(Velocities, GravityDampingOfAlgorithm12) {
