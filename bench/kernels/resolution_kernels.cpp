@@ -24,7 +24,7 @@ struct Gathered {
         batch.gather(pile.batch(), pile.contacts, pile.state());
         for (ContactFrame& frame : batch.contacts) batch.updateCollisionMatrixOf(frame);
         bodies = batch.bodies;
-        rows.build(batch);
+        rows.begin(batch);
         delta.assign(batch.contacts.size() + 1, 0);
     }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "body/contact.h"
+#include "math/by_component.h"
 #include "resolution/symmetric3.h"
 
 namespace cairn {
@@ -98,8 +99,10 @@ inline bool isResolvable(const ContactFrame& frame) {
 
 /// ϑA − ϑB: velocity of A relative to B at the contact [m/s, contact coordinates]. @source thesis (3.4.1), (3.4.2)
 inline Vec3 relativeVelocity(const ContactFrame& frame, const LocalBody& a, const LocalBody& b) {
-    const Vec3 relative = (a.v + a.w.cross(frame.r_a)) - (b.v + b.w.cross(frame.r_b));
-    return frame.basis.transpose() * relative;
+    namespace by = by_component;
+    const Vec3 at_a = by::sum(a.v, by::cross(a.w, frame.r_a));
+    const Vec3 at_b = by::sum(b.v, by::cross(b.w, frame.r_b));
+    return by::transposedProduct(frame.basis, by::difference(at_a, at_b));
 }
 
 }  // namespace cairn

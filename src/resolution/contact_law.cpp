@@ -8,17 +8,18 @@
 
 namespace cairn {
 
-void ContactLaw::begin(const BatchView& batch, std::span<const Contact> contacts, const LocalBatch& local,
-                       const ResolutionSettings& settings) {
+void ContactLaw::begin(const BatchView& batch, std::span<const Contact> contacts, const ResolutionSettings& settings) {
     restitution_law_ = settings.restitution_law;
     restitution_threshold_ = settings.restitution_threshold;
+    const bool rolls_freely =
+        std::ranges::none_of(batch.contacts, [&](std::uint32_t i) { return resistsRolling(contacts[i]); });
     touch_.clear();
     if (settings.restitution_speed == RestitutionSpeed::touching) {
         for (const std::uint32_t i : batch.contacts) {
             touch_.push_back({contacts[i].forced, contacts[i].fall, contacts[i].climb});
         }
     }
-    thesis_ = restitution_law_ == RestitutionLaw::newton && touch_.empty() && local.rolling.empty();
+    thesis_ = restitution_law_ == RestitutionLaw::newton && touch_.empty() && rolls_freely;
 }
 
 double ContactLaw::separatingSpeed(std::size_t contact, const ContactFrame& frame, double closing) const {

@@ -19,8 +19,7 @@ struct ContactWrench {
 /// The law of the contacts of one batch.
 class ContactLaw {
   public:
-    void begin(const BatchView& batch, std::span<const Contact> contacts, const LocalBatch& local,
-               const ResolutionSettings& settings);
+    void begin(const BatchView& batch, std::span<const Contact> contacts, const ResolutionSettings& settings);
 
     /// Whether every contact follows the thesis: contactImpulse() says all.
     bool isThesis() const { return thesis_; }

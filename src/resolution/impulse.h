@@ -54,12 +54,12 @@ struct VelocityChange {
 
 /// @param r from the centre of mass to the contact [m, W] @param impulse on this body [N·s, W] @source thesis (3.4.4)
 inline VelocityChange velocityChange(const LocalBody& body, const Vec3& r, const Vec3& impulse) {
-    return {body.mass_inv * impulse, body.inertia_inv * r.cross(impulse)};
+    return {by_component::product(body.mass_inv, impulse), body.inertia_inv * by_component::cross(r, impulse)};
 }
 
 inline void apply(const VelocityChange& change, LocalBody& body) {
-    body.v += change.v;
-    body.w += change.w;
+    by_component::add(change.v, body.v);
+    by_component::add(change.w, body.w);
     body.struck = 1;
 }
 
@@ -75,9 +75,10 @@ struct ContactChange {
 
 /// Applies an impulse to both bodies and adds it to the contact's sum. @param j on A [N·s, contact coordinates]
 inline ContactChange applyImpulse(ContactFrame& frame, const Vec3& j, LocalBody& a, LocalBody& b) {
-    const Vec3 impulse = frame.basis * j;
-    frame.impulse += impulse;
-    const ContactChange change{velocityChange(a, frame.r_a, impulse), velocityChange(b, frame.r_b, -impulse)};
+    const Vec3 impulse = by_component::product(frame.basis, j);
+    by_component::add(impulse, frame.impulse);
+    const ContactChange change{velocityChange(a, frame.r_a, impulse),
+                               velocityChange(b, frame.r_b, by_component::negative(impulse))};
     apply(change.a, a);
     apply(change.b, b);
     return change;

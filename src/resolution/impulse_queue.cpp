@@ -14,6 +14,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+bool rests(const LocalBody& body) {
+    return body.v.isZero(0) && body.w.isZero(0);
+}
+
 }  // namespace
 
 std::int64_t iterationLimit(double multiple, std::size_t contacts) {
@@ -26,9 +30,9 @@ void QueueSolver::begin(const BatchView& view, std::span<const Contact> contacts
                         const ResolutionSettings& settings) {
     settings_ = settings;
     threshold_ = -settings.resolution_threshold;
-    batch.gather(view, contacts, bodies);
-    law_.begin(view, contacts, batch, settings);
-    rows.build(batch);
+    batch.gatherUnprepared(view, contacts, bodies);
+    law_.begin(view, contacts, settings);
+    rows.begin(batch);
     delta_.assign(batch.contacts.size() + 1, infinity);
 }
 
@@ -45,12 +49,17 @@ template <class Queue>
 RunOutcome QueueSolver::runWith(Queue& queue, std::span<const std::uint32_t> members, std::int64_t limit) {
     queue.reset(rows.lists(), delta_, threshold_);
     for (const std::uint32_t i : members) {
-        const ContactFrame& contact = batch.contacts[i];
-        const double delta = batch.velocityOf(contact)[0];
-        if (!isResolvable(contact) || !std::isfinite(delta)) continue;
+        const auto [a, b] = batch.ends[i];
+        if (rests(batch.bodies[a]) && rests(batch.bodies[b])) {
+            delta_[i] = 0;
+            continue;
+        }
+        const double delta = batch.normalVelocityOf(i);
+        if (!std::isfinite(delta)) continue;
         delta_[i] = delta;
-        if (batch.bodies[contact.a].mass_inv > 0) queue.insert(i, contact.a);
-        if (batch.bodies[contact.b].mass_inv > 0) queue.insert(i, contact.b);
+        if (!(delta < threshold_)) continue;
+        if (batch.bodies[a].mass_inv > 0) queue.insert(i, a);
+        if (batch.bodies[b].mass_inv > 0) queue.insert(i, b);
     }
     RunOutcome outcome;
     for (std::uint32_t next = queue.next(); next != no_contact; next = queue.next()) {
@@ -126,14 +135,16 @@ void QueueSolver::resolveByLaw(Queue& queue, std::uint32_t contact, const Vec3& 
 /// Lines 12–23 of Algorithm 9. @return 1 if the contact was resolved, 0 if it turned out not to close
 template <class Queue>
 std::int64_t QueueSolver::resolve(Queue& queue, std::uint32_t contact) {
+    batch.prepare(contact);
     ContactFrame& frame = batch.contacts[contact];
     LocalBody& a = batch.bodies[frame.a];
     LocalBody& b = batch.bodies[frame.b];
     const Vec3 velocity = relativeVelocity(frame, a, b);
     // δ follows the velocities by adding up their changes; its rounding errors end here, where its value matters.
-    if (!(velocity[0] < threshold_) || !std::isfinite(velocity[0])) {
+    const bool usable = std::isfinite(velocity[0]) && isResolvable(frame);
+    if (!(velocity[0] < threshold_) || !usable) {
         // What is not finite is never touched again, so that it cannot spread.
-        delta_[contact] = std::isfinite(velocity[0]) ? velocity[0] : infinity;
+        delta_[contact] = usable ? velocity[0] : infinity;
         queue.contactOpened(contact);
         return 0;
     }

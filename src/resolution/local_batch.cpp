@@ -50,28 +50,44 @@ void LocalBatch::gatherBodies(const BatchView& batch, std::span<const Contact> a
 }
 
 void LocalBatch::gather(const BatchView& batch, std::span<const Contact> all_contacts, const BodyState& state) {
+    gatherUnprepared(batch, all_contacts, state);
+    for (std::uint32_t i = 0; i < contacts.size(); ++i) build(i);
+}
+
+void LocalBatch::gatherUnprepared(const BatchView& batch, std::span<const Contact> all_contacts,
+                                  const BodyState& state) {
     gatherBodies(batch, all_contacts, state);
     contacts.resize(batch.contacts.size());
     rolling.clear();
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-        const Contact& contact = all_contacts[batch.contacts[i]];
-        ContactFrame& frame = contacts[i];
-        frame.a = ends[i].a;
-        frame.b = ends[i].b;
-        frame.basis = contactBasis(contact.normal);
-        frame.r_a = contact.point - state.position[contact.a];
-        frame.r_b = contact.point - state.position[contact.b];
-        frame.restitution = contact.restitution;
-        frame.static_friction = contact.static_friction;
-        frame.kinetic_friction = contact.kinetic_friction;
-        frame.impulse.setZero();
-        frame.rolling = ContactFrame::rolls_freely;
-        if (contact.rolling_friction > 0 || contact.spinning_friction > 0) {
-            frame.rolling = static_cast<std::uint32_t>(rolling.size());
-            rolling.push_back({.rolling = contact.rolling_friction, .spinning = contact.spinning_friction});
-        }
-        updateCollisionMatrixOf(frame);
-    }
+    source_contacts_ = batch.contacts;
+    source_ = all_contacts;
+    source_position_ = state.position;
+    preparation_.assign(contacts.size(), Preparation::none);
+}
+
+void LocalBatch::build(std::uint32_t contact) {
+    if (preparation_[contact] == Preparation::none) buildFrame(contact);
+    updateCollisionMatrixOf(contacts[contact]);
+    preparation_[contact] = Preparation::complete;
+}
+
+void LocalBatch::buildFrame(std::uint32_t i) {
+    const Contact& contact = source_[source_contacts_[i]];
+    const NormalArms arms = armsOf(i);
+    ContactFrame& frame = contacts[i];
+    frame.a = ends[i].a;
+    frame.b = ends[i].b;
+    frame.basis = contactBasis(arms.normal);
+    frame.r_a = arms.r_a;
+    frame.r_b = arms.r_b;
+    frame.restitution = contact.restitution;
+    frame.static_friction = contact.static_friction;
+    frame.kinetic_friction = contact.kinetic_friction;
+    frame.impulse.setZero();
+    frame.rolling = ContactFrame::rolls_freely;
+    if (!resistsRolling(contact)) return;
+    frame.rolling = static_cast<std::uint32_t>(rolling.size());
+    rolling.push_back({.rolling = contact.rolling_friction, .spinning = contact.spinning_friction});
 }
 
 void LocalBatch::pushWorld(const ContactFrame& c, const Vec3& impulse) {
@@ -113,6 +129,7 @@ void LocalBatch::scatter(const BatchView& batch, std::span<Contact> all_contacts
     scatterBodies(state);
     joints.scatter();
     for (std::size_t i = 0; i < contacts.size(); ++i) {
+        if (preparation_[i] == Preparation::none) continue;
         const ContactFrame& frame = contacts[i];
         Contact& contact = all_contacts[batch.contacts[i]];
         contact.impulse += frame.impulse;

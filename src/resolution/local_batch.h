@@ -1,6 +1,7 @@
 /// @file A batch gathered into dense arrays: bodies and contacts get local indices, ascending as in the batch.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,11 +14,18 @@
 
 namespace cairn {
 
+/// What the normal velocity of a contact depends on.
+struct NormalArms {
+    Vec3 normal;  ///< from B to A [W]
+    Vec3 r_a;     ///< from the centre of mass of A to the contact [m, W]
+    Vec3 r_b;     ///< likewise of B
+};
+
 /// Works on copies: masses may be changed here (shock propagation) without touching those of the world.
 class LocalBatch {
   public:
     std::vector<LocalBody> bodies;        ///< the batch's dynamic bodies, then the fixed bodies they touch
-    std::vector<ContactFrame> contacts;   ///< in the batch's order
+    std::vector<ContactFrame> contacts;   ///< in the batch's order; those that are prepared
     std::vector<RollingContact> rolling;  ///< of the contacts that resist rolling or spinning
     std::size_t dynamic_bodies = 0;       ///< bodies[i] is dynamic for i below this
     BatchJoints joints;                   ///< hold at any time: impulses at contacts go through them
@@ -25,9 +33,32 @@ class LocalBatch {
 
     /// Initialises bodies and contacts (lines 2–4 of Algorithm 9). Keeps its memory between calls.
     void gather(const BatchView& batch, std::span<const Contact> all_contacts, const BodyState& state);
+    /// The same with no contact prepared: most of a resting batch are never resolved. All that is passed must outlive
+    /// the calls of prepare() and armsOf().
+    void gatherUnprepared(const BatchView& batch, std::span<const Contact> all_contacts, const BodyState& state);
+    /// Builds the frame of a contact, or its collision matrix anew, if it has none.
+    void prepare(std::uint32_t contact) {
+        if (preparation_[contact] != Preparation::complete) build(contact);
+    }
+    /// To be called where a mass has changed.
+    void forgetCollisionMatrixOf(std::uint32_t contact) {
+        preparation_[contact] = std::min(preparation_[contact], Preparation::frame);
+    }
+    NormalArms armsOf(std::uint32_t contact) const {
+        const Contact& source = source_[source_contacts_[contact]];
+        return {source.normal, source.point - source_position_[source.a], source.point - source_position_[source.b]};
+    }
+    /// ϑA0 − ϑB0, the first component of velocityOf() [m/s].
+    double normalVelocityOf(std::uint32_t contact) const {
+        const NormalArms arms = armsOf(contact);
+        const LocalBody& a = bodies[ends[contact].a];
+        const LocalBody& b = bodies[ends[contact].b];
+        return arms.normal.dot((a.v + a.w.cross(arms.r_a)) - (b.v + b.w.cross(arms.r_b)));
+    }
     /// The same without frames of the contacts: bodies, joints and ends.
     void gatherBodies(const BatchView& batch, std::span<const Contact> all_contacts, const BodyState& state);
     /// Writes back velocities and impulses, and wakes the bodies that were struck (wake condition 3 of thesis §3.2).
+    /// Contacts that are not prepared have no impulse.
     void scatter(const BatchView& batch, std::span<Contact> all_contacts, const BodyState& state) const;
     /// The same for velocities and waking alone.
     void scatterBodies(const BodyState& state) const;
@@ -51,9 +82,18 @@ class LocalBatch {
     void turn(const ContactFrame& c, const Vec3& impulse);
 
   private:
+    /// What there is of a contact's frame.
+    enum class Preparation : std::uint8_t { none, frame, complete };
+
+    void build(std::uint32_t contact);
+    void buildFrame(std::uint32_t contact);
     void updateRolling(const ContactFrame& c);
     std::uint32_t localIndex(BodyIndex slot, const BodyState& state);
 
+    std::span<const std::uint32_t> source_contacts_;  ///< [contacts] index in source_
+    std::span<const Contact> source_;
+    std::span<const Vec3> source_position_;     ///< [slots] [m, W]
+    std::vector<Preparation> preparation_;      ///< [contacts]
     std::vector<std::uint32_t> local_of_slot_;  ///< [slots] of the world; `none` outside of gather()
 };
 

@@ -22,10 +22,12 @@ struct NormalRowPair {
     Lanes angular_x, angular_y, angular_z;  ///< rA × n for A, −rB × n for B [m]
 };
 
-/// Compressed table of the rows of every dynamic body. Fixed bodies have none: nothing changes them.
+/// Compressed table of the rows of every dynamic body. Fixed bodies have none: nothing changes them. The rows of a body
+/// are built when it changes first: in a batch that rests nearly all never do.
 class NormalRows {
   public:
-    void build(const LocalBatch& batch);
+    /// @param batch must outlive the calls of update()
+    void begin(const LocalBatch& batch);
 
     /// Contacts of a body, ascending.
     std::span<const std::uint32_t> contactsOf(std::uint32_t body) const { return lists_[body]; }
@@ -33,15 +35,24 @@ class NormalRows {
 
     /// δ += change by the new velocities of one body, for all its contacts; a NaN becomes +∞.
     /// @param delta [contacts + 1] the last entry belongs to no contact
-    void update(std::uint32_t body, const VelocityChange& change, std::span<double> delta) const;
+    void update(std::uint32_t body, const VelocityChange& change, std::span<double> delta) {
+        if (packed_[body] == 0) pack(body);
+        const auto& [v, w] = change;
+        update(body, v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), delta.data());
+    }
 
   private:
-    void count(const LocalBatch& batch);
-    void place(std::uint32_t body, std::uint32_t contact, const Vec3& direction, const Vec3& r);
+    /// Gets the change in registers: what was written one by one just now would be read in pairs here (by_component.h).
+    void update(std::uint32_t body, double v_x, double v_y, double v_z, double w_x, double w_y, double w_z,
+                double* delta) const;
+    void count();
+    void pack(std::uint32_t body);
 
+    const LocalBatch* batch_ = nullptr;
     /// Every list begins with a new pair; an odd one is filled up with "contact" contacts.size().
     ContactLists lists_;
-    std::vector<NormalRowPair> pair_;  ///< [lists_.contact / 2] rows in the same order
+    std::vector<NormalRowPair> pair_;   ///< [lists_.contact / 2] rows in the same order
+    std::vector<std::uint8_t> packed_;  ///< [bodies] 1 = its rows are built
 };
 
 }  // namespace cairn

@@ -45,10 +45,10 @@ double smallestOfFamily(const double* family) {
                   lesser(lesser(family[4], family[5]), lesser(family[6], family[7])));
 }
 
-/// One bit for each member that has a value.
-unsigned membersWith(const double* family, double value) {
+/// One bit for each member that has the smallest value of all.
+unsigned membersWith(const double* family, double smallest) {
     unsigned mask = 0;  // without branches, which could not be foreseen
-    for (unsigned i = 0; i < TournamentQueue::fan_out; ++i) mask |= static_cast<unsigned>(family[i] == value) << i;
+    for (unsigned i = 0; i < TournamentQueue::fan_out; ++i) mask |= static_cast<unsigned>(family[i] <= smallest) << i;
     return mask;
 }
 
@@ -86,6 +86,7 @@ void TournamentQueue::arrange() {
         const std::size_t families = (level_begin_[level + 1] - level_begin_[level]) / fan_out;
         for (std::size_t i = 0; i < families; ++i) nodes[i] = smallestOfFamily(below + i * fan_out);
     }
+    smallest_ = smallestOfFamily(&nodes_[level_begin_.back()]);
     arranged_ = true;
 }
 
@@ -97,25 +98,31 @@ void TournamentQueue::bodyChanged(std::uint32_t body) {
         contact = delta < smallest ? i : contact;
         smallest = delta < smallest ? delta : smallest;
     }
-    nodes_[body] = smallest;
     noted_[body] = contact;
-    carryUp(body);
+    carryUp(body, smallest);
 }
 
-void TournamentQueue::carryUp(std::uint32_t body) {
+/// Compares a note with the smallest of its neighbours, level by level. The neighbours are looked at without the note,
+/// which is known last, so that a processor can be ahead with that.
+void TournamentQueue::carryUp(std::uint32_t body, double smallest) {
     std::size_t node = body;
-    for (std::size_t level = 0; level + 1 < level_begin_.size(); ++level) {
+    for (const std::size_t begin : level_begin_) {
+        double* family = &nodes_[begin + node / fan_out * fan_out];
+        double& place = family[node % fan_out];
+        place = infinity;
+        const double neighbours = smallestOfFamily(family);
+        place = smallest;
+        smallest = smallest < neighbours ? smallest : neighbours;
         node /= fan_out;
-        nodes_[level_begin_[level + 1] + node] = smallestOfFamily(&nodes_[level_begin_[level] + node * fan_out]);
     }
+    smallest_ = smallest;
 }
 
 std::uint32_t TournamentQueue::next() {
     if (!arranged_) arrange();
     while (true) {
-        const double smallest = smallestOfFamily(&nodes_[level_begin_.back()]);
-        if (!(smallest < threshold_)) return no_contact;
-        const std::uint32_t contact = searchFamily(level_begin_.size() - 1, 0, smallest);
+        if (!(smallest_ < threshold_)) return no_contact;
+        const std::uint32_t contact = searchFamily(level_begin_.size() - 1, 0, smallest_);
         if (outdated_.empty()) return contact;
         for (const std::uint32_t body : outdated_) bodyChanged(body);
         outdated_.clear();

@@ -144,7 +144,7 @@ class TournamentQueue {
 
   private:
     void arrange();
-    void carryUp(std::uint32_t body);
+    void carryUp(std::uint32_t body, double smallest);
     std::uint32_t searchFamily(std::size_t level, std::size_t family, double smallest);
 
     const ContactLists* lists_ = nullptr;
@@ -154,6 +154,7 @@ class TournamentQueue {
     std::vector<double> nodes_;             ///< levels from the notes up, each filled up with +∞ to full families
     std::vector<std::size_t> level_begin_;  ///< [levels] offsets into nodes_; the last level is one family
     std::vector<std::uint32_t> outdated_;   ///< bodies that next() found to be out of date
+    double smallest_ = 0;                   ///< of all nodes
     bool arranged_ = false;                 ///< all nodes above the notes belong to them
 };
 

@@ -8,6 +8,10 @@
 
 namespace cairn {
 
+inline bool resistsRolling(const Contact& contact) {
+    return contact.rolling_friction > 0 || contact.spinning_friction > 0;
+}
+
 /// What a contact that resists rolling has beside its frame.
 struct RollingContact {
     double rolling = 0;             ///< [m]: torque against rolling is at most this times the normal force

@@ -32,6 +32,7 @@ class ShockPropagation {
     std::vector<std::uint32_t> subset_, next_subset_;  ///< local bodies, ascending
     std::vector<std::uint32_t> members_;               ///< contacts of the subset, ascending
     std::vector<std::uint32_t> stage_of_body_;         ///< [bodies]; `unreached` until found
+    std::vector<std::uint64_t> marked_;                ///< a bit for each contact of the batch
 };
 
 }  // namespace cairn

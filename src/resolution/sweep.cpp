@@ -17,7 +17,7 @@ class SweepResolution final : public Resolution {
     ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
                              const ResolutionSettings& settings, const Executor&) override {
         local_.gather(batch, contacts, bodies);
-        law_.begin(batch, contacts, local_, settings);
+        law_.begin(batch, contacts, settings);
         ResolutionCounts counts;
         for (std::int64_t sweep = 0; sweep < settings.sweeps; ++sweep) {
             const bool bounds_changed = local_.joints.resolveBounds(local_.bodies, settings.resolution_threshold);
