@@ -26,15 +26,16 @@ class AwakePart final : public Resolution {
                              const ResolutionSettings& settings, const Executor& executor) override {
         const auto sleepers = static_cast<std::size_t>(
             std::ranges::count_if(batch.bodies, [&](BodyIndex i) { return sleeps(bodies, i); }));
-        const bool still = batch.joints.empty() && sleepers > 0 && hasStillSupports(batch, contacts, bodies);
-        if (still && sleepers == batch.bodies.size()) {
+        const bool all = sleepers == batch.bodies.size();
+        const bool some = sleepers > 0 && sleepers_ == Sleepers::remain && settings.wake_speed > 0;
+        if ((all || some) && batch.joints.empty() && hasStillSupports(batch, contacts, bodies)) {
+            if (!all) return resolvePart(batch, contacts, bodies, settings, executor);
             forEachContact(batch, contacts, executor, [](Contact& c) { c.impulse += c.last_impulse; });
             return {};
         }
-        if (still && sleepers_ == Sleepers::remain && settings.wake_speed > 0) {
-            return resolvePart(batch, contacts, bodies, settings, executor);
-        }
         const ResolutionCounts counts = resolution_->resolve(batch, contacts, bodies, settings, executor);
+        // Only who lets sleepers remain compares with it.
+        if (sleepers_ == Sleepers::wake) return counts;
         forEachContact(batch, contacts, executor, [](Contact& c) { c.reference_impulse = c.impulse; });
         return counts;
     }
