@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "resolution/algorithms.h"
+#include "resolution/batch_motion.h"
 #include "resolution/body_direction.h"
 #include "resolution/direct_step.h"
 #include "resolution/plain_sweeper.h"
@@ -12,9 +13,12 @@ namespace cairn {
 
 namespace {
 
-/// Batches with at least so many contacts are swept by colours, and by all threads. In smaller ones the order of the
+/// Batches with at least so many contacts are swept by colours, four contacts at once. In smaller ones the order of the
 /// contacts, from body to body, carries impulses farther in a sweep.
-constexpr std::size_t shared_contacts = 512;
+constexpr std::size_t wide_contacts = 320;
+
+/// Batches with at least so many contacts are worth all threads together.
+constexpr std::size_t shared_contacts = 1024;
 
 /// Plain sweeps before the first direct step: they find out which contacts push and stick.
 constexpr std::int64_t sweeps_before_leap = 3;
@@ -32,6 +36,12 @@ bool needsFrames(const BatchView& batch, std::span<const Contact> contacts) {
 bool hasTwoFrictions(const BatchView& batch, std::span<const Contact> contacts) {
     return std::ranges::any_of(
         batch.contacts, [&](std::uint32_t i) { return contacts[i].kinetic_friction < contacts[i].static_friction; });
+}
+
+/// Whether some contact closes faster than one at rest does.
+bool isMoving(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies, double threshold) {
+    return std::ranges::any_of(batch.contacts,
+                               [&](std::uint32_t i) { return normalVelocity(contacts[i], bodies) < -threshold; });
 }
 
 /// Sweeps over the contacts, forth and back, with accumulated impulses that begin where the last step ended, and
@@ -52,13 +62,14 @@ class AcceleratedSweepsResolution final : public Resolution {
         } else {
             local_.gatherBodies(batch, contacts, bodies);
         }
-        const bool wide = !framed && batch.contacts.size() >= shared_contacts;
+        const bool moving = isMoving(batch, contacts, bodies, settings.restitution_threshold);
+        const Sweeps sweeps{
+            .limit = sweepLimit(batch.contacts.size(), moving, settings),
+            .may_leap = !moving && !framed && local_.dynamic_bodies <= static_cast<std::size_t>(settings.direct_limit)};
+        const bool wide = !framed && !sweeps.may_leap && batch.contacts.size() >= wide_contacts;
         Sweeper& sweeper = wide ? static_cast<Sweeper&>(wide_) : plain_;
         const SweptBatch swept{local_, batch, contacts, bodies, settings, executor, framed};
-        const bool moving = sweeper.begin(swept);
-        const Sweeps sweeps{
-            .limit = sweepLimit(sweeper.size(), moving, settings),
-            .may_leap = !moving && !framed && local_.dynamic_bodies <= static_cast<std::size_t>(settings.direct_limit)};
+        sweeper.begin(swept);
         ResolutionCounts counts;
         counts.global_iterations = sweepUntilSteady(sweeper, swept, sweeps);
         // Only what static friction cannot hold slides. Where both are the same this costs nothing.
@@ -75,7 +86,7 @@ class AcceleratedSweepsResolution final : public Resolution {
     /// How far a batch is swept.
     struct Sweeps {
         std::int64_t limit;  ///< of sweeps
-        bool may_leap;       ///< direct steps are allowed
+        bool may_leap;       ///< direct steps are allowed; only with the plain sweeper
     };
 
     /// @return contacts visited
@@ -96,14 +107,14 @@ class AcceleratedSweepsResolution final : public Resolution {
             sweeper.sweep(swept);
             const SweepChange change = sweeper.change(swept);
             const bool fails = leapt && !(change.squared < worthwhile * gradient);
-            if (fails) setImpulses(kept_, sweeper);
+            if (fails) goBack();
             if (leapt) gradient = 0;
             leapt = false;
             may_leap = may_leap && !fails;
             const bool steady = !(change.largest_speed > settings.sweep_tolerance) && !bounds_changed;
             if (steady || sweep >= sweeps.limit) break;
             if (fails) continue;
-            if (may_leap && sweep >= sweeps_before_leap && leap(sweeper)) {
+            if (may_leap && sweep >= sweeps_before_leap && leap()) {
                 leapt = true;
             } else {
                 const bool descends = !bounds_changed && gradient > 0 && change.squared <= gradient;
@@ -129,29 +140,24 @@ class AcceleratedSweepsResolution final : public Resolution {
     }
 
     /// Takes the direct step, as far as the friction cones allow it. @return whether there is one
-    bool leap(Sweeper& sweeper) {
-        sweeper.copyTo(contacts_, local_);
-        if (!direct_.compute(local_, contacts_)) return false;
-        kept_.resize(contacts_.size());
-        wanted_.resize(contacts_.size());
-        for (std::size_t i = 0; i < contacts_.size(); ++i) {
-            const SweptContact& s = contacts_[i];
+    bool leap() {
+        const std::span<const SweptContact> contacts = plain_.contacts();
+        if (!direct_.compute(local_, contacts)) return false;
+        kept_.resize(contacts.size());
+        for (std::size_t i = 0; i < contacts.size(); ++i) {
+            const SweptContact& s = contacts[i];
             kept_[i] = s.impulse;
             const Vec3 wanted = s.impulse + direct_.changes()[i];
             const double normal = s.normal.dot(wanted);
-            wanted_[i] = normal > 0 ? ontoCone(s, normal, wanted - normal * s.normal) : Vec3(Vec3::Zero());
+            const Vec3 allowed = normal > 0 ? ontoCone(s, normal, wanted - normal * s.normal) : Vec3(Vec3::Zero());
+            plain_.setImpulse(i, allowed, local_);
         }
-        setImpulses(wanted_, sweeper);
         return true;
     }
 
-    void setImpulses(std::span<const Vec3> impulses, Sweeper& sweeper) {
-        sweeper.copyTo(contacts_, local_);
-        for (std::size_t i = 0; i < contacts_.size(); ++i) {
-            const SweptContact& s = contacts_[i];
-            push(s, impulses[i] - s.impulse, local_.bodies[s.a], local_.bodies[s.b]);
-            sweeper.setImpulse(i, impulses[i]);
-        }
+    /// Undoes it.
+    void goBack() {
+        for (std::size_t i = 0; i < kept_.size(); ++i) plain_.setImpulse(i, kept_[i], local_);
     }
 
     LocalBatch local_;
@@ -159,9 +165,7 @@ class AcceleratedSweepsResolution final : public Resolution {
     WideSweeper wide_;
     BodyDirection direction_;
     DirectStep direct_;
-    std::vector<SweptContact> contacts_;  ///< as they were last copied for a direct step
-    std::vector<Vec3> kept_;              ///< [contacts] impulses before a direct step [N·s]
-    std::vector<Vec3> wanted_;            ///< [contacts] impulses that a direct step aims at [N·s]
+    std::vector<Vec3> kept_;  ///< [contacts] impulses before a direct step [N·s]
 };
 
 }  // namespace

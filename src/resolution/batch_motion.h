@@ -27,6 +27,14 @@ inline void noteMotion(std::span<const BodyIndex> noted, const BodyState& bodies
     for (const BodyIndex i : noted) motion.push_back({bodies.v[i], bodies.w[i]});
 }
 
+/// Normal part of ϑA − ϑB [m/s]; negative = the contact closes. @source thesis (3.4.2)
+inline double normalVelocity(const Contact& contact, const BodyState& bodies) {
+    const auto at = [&](BodyIndex i) -> Vec3 {
+        return bodies.v[i] + bodies.w[i].cross(contact.point - bodies.position[i]);
+    };
+    return contact.normal.dot(at(contact.a) - at(contact.b));
+}
+
 /// Whether no fixed body that moves touches the batch.
 inline bool hasStillSupports(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
     const auto holds = [&](BodyIndex i) { return !bodies.isFixed(i) || isAtRest(bodies, i); };

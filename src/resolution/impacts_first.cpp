@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "resolution/algorithms.h"
-#include "resolution/contact_frame.h"
+#include "resolution/batch_motion.h"
 
 namespace cairn {
 
@@ -19,14 +19,6 @@ constexpr std::int64_t simultaneous_sweeps = 1000;
 Impacts wantedOf(const ResolutionSettings& settings, Impacts own) {
     if (settings.impacts != Impacts::of_resolution) return settings.impacts;
     return settings.restitution_law == RestitutionLaw::energetic ? Impacts::sequential : own;
-}
-
-/// ϑA − ϑB along the normal [m/s].
-double closingOf(const Contact& contact, const BodyState& bodies) {
-    const auto at = [&](BodyIndex i) -> Vec3 {
-        return bodies.v[i] + bodies.w[i].cross(contact.point - bodies.position[i]);
-    };
-    return contact.normal.dot(at(contact.a) - at(contact.b));
 }
 
 class ImpactsFirst final : public Resolution {
@@ -56,7 +48,7 @@ class ImpactsFirst final : public Resolution {
                           const ResolutionSettings& settings) {
         return std::ranges::any_of(batch.contacts, [&](std::uint32_t i) {
             const Contact& contact = contacts[i];
-            return contact.restitution > 0 && closingOf(contact, bodies) < -settings.restitution_threshold;
+            return contact.restitution > 0 && normalVelocity(contact, bodies) < -settings.restitution_threshold;
         });
     }
 

@@ -14,10 +14,9 @@ void pushBodies(const SweptContact& contact, const Vec3& impulse, LocalBatch& lo
 
 }  // namespace
 
-bool PlainSweeper::begin(const SweptBatch& swept) {
+void PlainSweeper::begin(const SweptBatch& swept) {
     const std::size_t count = swept.batch.contacts.size();
     framed_ = swept.framed;
-    moving_ = false;
     rolling_.assign(framed_ ? swept.local.rolling.size() : 0, {});
     contacts_.resize(count);
     for (std::size_t i = 0; i < count; ++i) beginContact(i, swept);
@@ -28,7 +27,6 @@ bool PlainSweeper::begin(const SweptBatch& swept) {
             pushBodies(contacts_[i], contacts_[i].impulse, swept.local);
         }
     }
-    return moving_;
 }
 
 void PlainSweeper::beginContact(std::size_t i, const SweptBatch& swept) {
@@ -54,7 +52,6 @@ void PlainSweeper::beginContact(std::size_t i, const SweptBatch& swept) {
     mendSingular(s);
     s.friction = contact.static_friction;
     const double closing = s.normal.dot(relativeVelocity(s, a, b));
-    moving_ = moving_ || closing < -swept.settings.restitution_threshold;
     s.target = ContactLaw::separatingSpeed(swept.settings, contact, closing);
     s.impulse = contact.last_impulse;
     if (!(s.normal.dot(s.impulse) > 0) || !isResolvable(s)) s.impulse.setZero();
@@ -107,6 +104,12 @@ void PlainSweeper::visitRolling(SweptContact& contact, const ContactFrame& frame
     local.turn(frame, next.tail<3>() - turned.impulse);
     contact.impulse = impulse;
     turned.impulse = next.tail<3>();
+}
+
+void PlainSweeper::setImpulse(std::size_t contact, const Vec3& impulse, LocalBatch& local) {
+    SweptContact& s = contacts_[contact];
+    pushBodies(s, impulse - s.impulse, local);
+    s.impulse = impulse;
 }
 
 void PlainSweeper::note(const SweptBatch&) {

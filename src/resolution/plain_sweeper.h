@@ -1,6 +1,7 @@
 /// @file Sweeps that visit one contact at a time.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "resolution/sweeper.h"
@@ -12,7 +13,7 @@ namespace cairn {
 /// body, which carries impulses farther in a sweep than any other order.
 class PlainSweeper final : public Sweeper {
   public:
-    bool begin(const SweptBatch& swept) override;
+    void begin(const SweptBatch& swept) override;
     std::size_t size() const override { return contacts_.size(); }
     void sweep(const SweptBatch& swept) override;
     void note(const SweptBatch& swept) override;
@@ -21,8 +22,11 @@ class PlainSweeper final : public Sweeper {
     void restart() override;
     bool releaseSliding(const SweptBatch& swept) override;
     void finish(const SweptBatch& swept) override;
-    void copyTo(std::vector<SweptContact>& contacts, const LocalBatch&) const override { contacts = contacts_; }
-    void setImpulse(std::size_t contact, const Vec3& impulse) override { contacts_[contact].impulse = impulse; }
+
+    /// In the batch's order.
+    std::span<const SweptContact> contacts() const { return contacts_; }
+    /// Replaces an accumulated impulse, with what it does to the velocities. @param impulse [N·s, W]
+    void setImpulse(std::size_t contact, const Vec3& impulse, LocalBatch& local);
 
   private:
     /// The angular impulse of a contact that resists rolling; contact coordinates.
@@ -40,7 +44,6 @@ class PlainSweeper final : public Sweeper {
     void settleFrames(const SweptBatch& swept);
 
     bool framed_ = false;                 ///< the batch has frames of the contacts
-    bool moving_ = false;                 ///< some contact closes faster than one at rest does
     std::vector<SweptContact> contacts_;  ///< in the batch's order
     std::vector<Rolling> rolling_;        ///< as LocalBatch::rolling
     std::vector<Vec3> before_;            ///< [contacts] impulses at the beginning of the sweep [N·s]

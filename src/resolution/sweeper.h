@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "parallel/executor.h"
 #include "resolution/local_batch.h"
 #include "resolution/resolution.h"
-#include "resolution/swept_contact.h"
 
 namespace cairn {
 
@@ -42,8 +40,7 @@ class Sweeper {
     virtual ~Sweeper() = default;
 
     /// Takes over a batch that local has gathered, and applies the impulses that contacts remember.
-    /// @return whether some contact closes faster than one at rest does
-    virtual bool begin(const SweptBatch& swept) = 0;
+    virtual void begin(const SweptBatch& swept) = 0;
     virtual std::size_t size() const = 0;  ///< contacts
     /// Visits every contact twice: forth and back.
     virtual void sweep(const SweptBatch& swept) = 0;
@@ -59,11 +56,6 @@ class Sweeper {
     virtual bool releaseSliding(const SweptBatch& swept) = 0;
     /// Writes the impulses to the contacts.
     virtual void finish(const SweptBatch& swept) = 0;
-
-    /// Copies the contacts, in the batch's order.
-    virtual void copyTo(std::vector<SweptContact>& contacts, const LocalBatch& local) const = 0;
-    /// Replaces an accumulated impulse and leaves the velocities. @param contact of the batch @param impulse [N·s]
-    virtual void setImpulse(std::size_t contact, const Vec3& impulse) = 0;
 };
 
 /// Fewest contacts or bodies worth a thread of their own in simple loops.

@@ -1,7 +1,6 @@
 #include "resolution/wide_sweeper.h"
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 
 #include "resolution/contact_law.h"
@@ -125,18 +124,15 @@ void setMasses(WideContact& wide, std::size_t lane, const SweptContact& contact)
 
 }  // namespace
 
-bool WideSweeper::begin(const SweptBatch& swept) {
+void WideSweeper::begin(const SweptBatch& swept) {
     colours_.colour(swept.local.ends, swept.local.dynamic_bodies);
     arrange(swept.local);
-    std::atomic<bool> moving = false;
     swept.executor.forBlocks(
         groups_.size(),
         [&](std::size_t begin, std::size_t end, int) {
-            bool moves = false;
             runOnLanes([&]() __attribute__((always_inline)) {
-                for (std::size_t g = begin; g < end; ++g) moves = beginGroup(groups_[g], swept) || moves;
+                for (std::size_t g = begin; g < end; ++g) beginGroup(groups_[g], swept);
             });
-            if (moves) moving = true;
         },
         group_grain);
     for (std::size_t c = 0; c < colours_.colours(); ++c) {
@@ -145,7 +141,6 @@ bool WideSweeper::begin(const SweptBatch& swept) {
                 for (const WideContact& contact : contacts) push(contact, contact.impulse, a, b);
             });
     }
-    return moving;
 }
 
 /// Groups of pairs with equally many contacts, as far as there are such.
@@ -210,11 +205,9 @@ void WideSweeper::addGroup(std::span<const Pair> pairs, const LocalBatch& local)
     groups_.push_back(group);
 }
 
-/// @return whether some contact of it closes faster than one at rest does
-[[gnu::always_inline]] inline bool WideSweeper::beginGroup(const Group& group, const SweptBatch& swept) {
+[[gnu::always_inline]] inline void WideSweeper::beginGroup(const Group& group, const SweptBatch& swept) {
     const WideBody a = load(swept.local.bodies, group.a);
     const WideBody b = load(swept.local.bodies, group.b);
-    bool moving = false;
     for (std::size_t i = group.begin; i < group.end; ++i) {
         WideContact& wide = contacts_[i];
         for (std::size_t lane = 0; lane < lane_count; ++lane) {
@@ -245,14 +238,12 @@ void WideSweeper::addGroup(std::span<const Pair> pairs, const LocalBatch& local)
                 mendSingular(contact);
                 setMasses(wide, lane, contact);
             }
-            moving = moving || closing[lane] < -swept.settings.restitution_threshold;
             wide.target[lane] =
                 ContactLaw::separatingSpeed(swept.settings, swept.contacts[swept.batch.contacts[index]], closing[lane]);
         }
         const LaneMask pushes = (wide.normal.dot(wide.impulse) > 0) & (wide.normal_mass > 0);
         wide.impulse = where(pushes, wide.impulse, Lanes3());
     }
-    return moving;
 }
 
 /// Calls visit(contacts, a, b) for every group of a colour.
@@ -376,19 +367,6 @@ void WideSweeper::finish(const SweptBatch& swept) {
         const WideContact& wide = contacts_[slot_of_[i] / lane_count];
         swept.contacts[swept.batch.contacts[i]].impulse += wide.impulse.lane(slot_of_[i] % lane_count);
     });
-}
-
-void WideSweeper::copyTo(std::vector<SweptContact>& contacts, const LocalBatch& local) const {
-    contacts.resize(slot_of_.size());
-    for (std::size_t i = 0; i < slot_of_.size(); ++i) {
-        contacts[i] = contactAt(slot_of_[i]);
-        contacts[i].a = local.ends[i].a;
-        contacts[i].b = local.ends[i].b;
-    }
-}
-
-void WideSweeper::setImpulse(std::size_t contact, const Vec3& impulse) {
-    contacts_[slot_of_[contact] / lane_count].impulse.setLane(slot_of_[contact] % lane_count, impulse);
 }
 
 }  // namespace cairn

@@ -7,6 +7,7 @@
 
 #include "resolution/contact_colours.h"
 #include "resolution/sweeper.h"
+#include "resolution/swept_contact.h"
 
 namespace cairn {
 
@@ -15,7 +16,7 @@ namespace cairn {
 /// worked on at once.
 class WideSweeper final : public Sweeper {
   public:
-    bool begin(const SweptBatch& swept) override;
+    void begin(const SweptBatch& swept) override;
     std::size_t size() const override { return slot_of_.size(); }
     void sweep(const SweptBatch& swept) override;
     void note(const SweptBatch& swept) override;
@@ -24,8 +25,6 @@ class WideSweeper final : public Sweeper {
     void restart() override;
     bool releaseSliding(const SweptBatch& swept) override;
     void finish(const SweptBatch& swept) override;
-    void copyTo(std::vector<SweptContact>& contacts, const LocalBatch& local) const override;
-    void setImpulse(std::size_t contact, const Vec3& impulse) override;
 
   private:
     /// Contacts of one pair of bodies, as places of the colours.
@@ -45,7 +44,7 @@ class WideSweeper final : public Sweeper {
 
     void arrange(const LocalBatch& local);
     void addGroup(std::span<const Pair> pairs, const LocalBatch& local);
-    bool beginGroup(const Group& group, const SweptBatch& swept);
+    void beginGroup(const Group& group, const SweptBatch& swept);
     template <class Visit>
     void visitGroups(std::size_t colour, const SweptBatch& swept, const Visit& visit);
     SweepChange changeOfBlock(std::size_t block) const;
