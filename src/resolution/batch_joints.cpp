@@ -9,6 +9,10 @@ namespace cairn {
 
 namespace {
 
+/// Where joints block all motion at a contact along a direction, rounding leaves about this part of what the bodies
+/// would do without joints. @note far above one rounding, since factorising a mechanism takes many
+constexpr double blocked = 1e-12;
+
 /// Most passes over the bounds of a batch at a time.
 constexpr int most_passes = 50;
 
@@ -195,7 +199,10 @@ Symmetric3 BatchJoints::collisionMatrix(const ContactFrame& contact, std::span<c
         respond(contact, contact.basis.col(i), Vec3::Zero(), bodies);
         k.col(i) = contact.basis.transpose() * relativeChange(contact).v;
     }
-    return Symmetric3::from(0.5 * (k + k.transpose()));
+    const Symmetric3 unjointed = cairn::collisionMatrix(contact, bodies[contact.a], bodies[contact.b]);
+    const double rest = blocked * std::max({unjointed.xx, unjointed.yy, unjointed.zz});
+    if (!(k(0, 0) > rest)) return {};
+    return Symmetric3::from(0.5 * (k + k.transpose()) + rest * Mat3::Identity());
 }
 
 Mat6 BatchJoints::wrenchMatrix(const ContactFrame& contact, std::span<const LocalBody> bodies) {

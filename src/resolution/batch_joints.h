@@ -58,7 +58,8 @@ class BatchJoints {
     bool holds(const ContactFrame& contact) const {
         return count_ > 0 && (groupOf(contact.a) != none || groupOf(contact.b) != none);
     }
-    /// The collision matrix with the joints holding [1/kg, contact coordinates]. @pre holds(contact)
+    /// The collision matrix with the joints holding [1/kg, contact coordinates]: positive definite, or 0 where they
+    /// block the normal. @pre holds(contact)
     Symmetric3 collisionMatrix(const ContactFrame& contact, std::span<const LocalBody> bodies);
     /// Applies an impulse on A at a contact. @param impulse [N·s, W] @pre holds(contact)
     void push(const ContactFrame& contact, const Vec3& impulse, std::span<LocalBody> bodies);

@@ -8,6 +8,11 @@ namespace cairn {
 
 namespace {
 
+/// False for what velocities give that are not finite: it would spread.
+bool isFinite(const Vec3& impulse) {
+    return impulse.squaredNorm() < std::numeric_limits<double>::infinity();
+}
+
 void pushBodies(const SweptContact& contact, const Vec3& impulse, LocalBatch& local) {
     push(contact, impulse, local.bodies[contact.a], local.bodies[contact.b]);
 }
@@ -70,9 +75,7 @@ void PlainSweeper::sweep(const SweptBatch& swept) {
 void PlainSweeper::visit(SweptContact& contact, LocalBatch& local) {
     const Vec3 velocity = relativeVelocity(contact, local.bodies[contact.a], local.bodies[contact.b]);
     const Vec3 impulse = projectedImpulse(contact, velocity);
-    // False for velocities that are not finite: they would spread.
-    const bool usable = impulse.squaredNorm() < std::numeric_limits<double>::infinity();
-    if (!usable || !isResolvable(contact)) return;
+    if (!isFinite(impulse) || !isResolvable(contact)) return;
     pushBodies(contact, impulse - contact.impulse, local);
     contact.impulse = impulse;
 }
@@ -87,6 +90,7 @@ void PlainSweeper::visitFramed(std::size_t i, LocalBatch& local) {
         return;
     }
     const Vec3 impulse = projectedImpulse(contact, velocity);
+    if (!isFinite(impulse)) return;
     local.pushWorld(frame, impulse - contact.impulse);
     contact.impulse = impulse;
 }
