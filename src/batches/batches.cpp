@@ -4,12 +4,15 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace cairn {
 
 namespace {
 
 constexpr std::uint32_t no_batch = Batches::none;
+/// A body is in a batch if it has a contact or a joint; its number follows later.
+constexpr std::uint32_t in_some_batch = 0;
 
 bool isDynamic(std::span<const BodyKind> kind, BodyIndex i) {
     return kind[i] == BodyKind::dynamic;
@@ -24,12 +27,9 @@ BodyIndex representative(std::vector<std::uint32_t>& parent, BodyIndex i) {
     return i;
 }
 
-/// A dynamic body of the contact; its batch is that of the contact.
-BodyIndex ownerOf(std::span<const BodyKind> kind, const Contact& contact) {
-    if (isDynamic(kind, contact.a)) return contact.a;
-    if (isDynamic(kind, contact.b)) return contact.b;
-    throw std::logic_error("batches: contact of bodies " + std::to_string(contact.a) + " and " +
-                           std::to_string(contact.b) + ", neither of which can move");
+[[noreturn]] void throwImmovable(BodyIndex a, BodyIndex b) {
+    throw std::logic_error("batches: contact of bodies " + std::to_string(a) + " and " + std::to_string(b) +
+                           ", neither of which can move");
 }
 
 /// Turns counts in values[0 … n−1] into offsets; values[n] becomes their sum.
@@ -37,41 +37,44 @@ void countsToOffsets(std::vector<std::uint32_t>& values) {
     std::exclusive_scan(values.begin(), values.end(), values.begin(), std::uint32_t{0});
 }
 
-/// Joins the bodies of each contact and joint. Each group's representative is its lowest body, since the higher of two
-/// representatives is always linked to the lower one.
+/// Notes a dynamic body of each contact, its owner, whose batch is that of the contact. Joins the bodies of each
+/// contact and joint and marks them as being in some batch. Each group's representative is its lowest body, since the
+/// higher of two representatives is always linked to the lower one.
 void joinBodies(std::span<const BodyKind> kind, std::span<const Contact> contacts, std::span<const Joint> joints,
-                std::vector<std::uint32_t>& parent) {
-    parent.resize(kind.size());
-    std::iota(parent.begin(), parent.end(), 0);
+                BatchScratch& scratch) {
+    scratch.parent.resize(kind.size());
+    std::iota(scratch.parent.begin(), scratch.parent.end(), 0);
+    scratch.batch_of_body.assign(kind.size(), no_batch);
+    scratch.owners.resize(contacts.size());
     const auto join = [&](BodyIndex a, BodyIndex b) {
-        const BodyIndex p = representative(parent, a);
-        const BodyIndex q = representative(parent, b);
-        parent[std::max(p, q)] = std::min(p, q);
+        const BodyIndex p = representative(scratch.parent, a);
+        const BodyIndex q = representative(scratch.parent, b);
+        scratch.parent[std::max(p, q)] = std::min(p, q);
     };
-    for (const Contact& contact : contacts) {
-        if (isDynamic(kind, contact.a) && isDynamic(kind, contact.b)) join(contact.a, contact.b);
+    const auto mark = [&](BodyIndex body) { scratch.batch_of_body[body] = in_some_batch; };
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+        const auto [a, b] = std::pair(contacts[c].a, contacts[c].b);
+        const bool a_joins = isDynamic(kind, a);
+        const bool b_joins = isDynamic(kind, b);
+        if (!a_joins && !b_joins) throwImmovable(a, b);
+        if (a_joins) mark(a);
+        if (b_joins) mark(b);
+        scratch.owners[c] = a_joins ? a : b;
+        if (a_joins && b_joins) join(a, b);
     }
     for (const Joint& joint : joints) {
-        if (joint.present && isMovable(kind, joint.a) && isMovable(kind, joint.b)) join(joint.a, joint.b);
+        if (!joint.present) continue;
+        const bool a_joins = isMovable(kind, joint.a);
+        const bool b_joins = isMovable(kind, joint.b);
+        if (a_joins) mark(joint.a);
+        if (b_joins) mark(joint.b);
+        if (a_joins && b_joins) join(joint.a, joint.b);
     }
 }
 
 /// Numbers the groups that have contacts or joints in ascending order of their lowest bodies. @return their number
-std::uint32_t numberBatches(std::span<const BodyKind> kind, std::span<const Contact> contacts,
-                            std::span<const Joint> joints, BatchScratch& scratch) {
-    // A body is in a batch if it has a contact or a joint; its number follows below.
-    constexpr std::uint32_t in_some_batch = 0;
+std::uint32_t numberBatches(BatchScratch& scratch) {
     auto& batch = scratch.batch_of_body;
-    batch.assign(kind.size(), no_batch);
-    for (const Contact& contact : contacts) {
-        batch[ownerOf(kind, contact)] = in_some_batch;
-        if (isDynamic(kind, contact.b)) batch[contact.b] = in_some_batch;
-    }
-    for (const Joint& joint : joints) {
-        if (!joint.present) continue;
-        if (isMovable(kind, joint.a)) batch[joint.a] = in_some_batch;
-        if (isMovable(kind, joint.b)) batch[joint.b] = in_some_batch;
-    }
     std::uint32_t count = 0;
     for (std::size_t i = 0; i < batch.size(); ++i) {
         if (batch[i] == no_batch) continue;
@@ -85,8 +88,8 @@ std::uint32_t numberBatches(std::span<const BodyKind> kind, std::span<const Cont
 
 void buildBatches(std::span<const BodyKind> kind, std::span<const Contact> contacts, BatchScratch& scratch,
                   Batches& batches, std::span<const Joint> joints) {
-    joinBodies(kind, contacts, joints, scratch.parent);
-    const std::uint32_t count = numberBatches(kind, contacts, joints, scratch);
+    joinBodies(kind, contacts, joints, scratch);
+    const std::uint32_t count = numberBatches(scratch);
     const auto& batch_of_body = scratch.batch_of_body;
 
     batches.body_begin.assign(count + 1, 0);
@@ -104,7 +107,7 @@ void buildBatches(std::span<const BodyKind> kind, std::span<const Contact> conta
     batches.contact_begin.assign(count + 1, 0);
     batches.batch_of_contact.resize(contacts.size());
     for (std::size_t c = 0; c < contacts.size(); ++c) {
-        batches.batch_of_contact[c] = batch_of_body[ownerOf(kind, contacts[c])];
+        batches.batch_of_contact[c] = batch_of_body[scratch.owners[c]];
         ++batches.contact_begin[batches.batch_of_contact[c]];
     }
     countsToOffsets(batches.contact_begin);

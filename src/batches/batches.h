@@ -53,6 +53,7 @@ struct ContactsOfBodies {
 struct BatchScratch {
     std::vector<std::uint32_t> parent;
     std::vector<std::uint32_t> batch_of_body;
+    std::vector<BodyIndex> owners;  ///< [contacts] a dynamic body of each
     std::vector<std::uint32_t> cursor;
 };
 
