@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "math/arrays.h"
 #include "resolution/contact_law.h"
 
 namespace cairn {
@@ -23,7 +24,7 @@ void PlainSweeper::begin(const SweptBatch& swept) {
     const std::size_t count = swept.batch.contacts.size();
     framed_ = swept.framed;
     rolling_.assign(framed_ ? swept.local.rolling.size() : 0, {});
-    contacts_.resize(count);
+    resizeTightly(contacts_, count);
     for (std::size_t i = 0; i < count; ++i) beginContact(i, swept);
     for (std::size_t i = 0; i < count; ++i) {
         if (framed_) {
@@ -117,7 +118,7 @@ void PlainSweeper::setImpulse(std::size_t contact, const Vec3& impulse, LocalBat
 }
 
 void PlainSweeper::note(const SweptBatch&) {
-    before_.resize(contacts_.size());
+    resizeTightly(before_, contacts_.size());
     for (std::size_t i = 0; i < contacts_.size(); ++i) before_[i] = contacts_[i].impulse;
     for (Rolling& r : rolling_) r.before = r.impulse;
 }

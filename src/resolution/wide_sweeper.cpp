@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "math/arrays.h"
 #include "resolution/contact_law.h"
 
 namespace cairn {
@@ -177,7 +178,7 @@ void WideSweeper::arrange(const LocalBatch& local) {
         if (rest_count > 0) addGroup({rest.data(), rest_count}, local);
         group_begin_.push_back(groups_.size());
     }
-    contacts_.resize(contact_of_.size() / lane_count);
+    resizeTightly(contacts_, contact_of_.size() / lane_count);
 }
 
 void WideSweeper::addGroup(std::span<const Pair> pairs, const LocalBatch& local) {
@@ -287,7 +288,7 @@ void WideSweeper::sweep(const SweptBatch& swept) {
 }
 
 void WideSweeper::note(const SweptBatch& swept) {
-    before_.resize(contacts_.size());
+    resizeTightly(before_, contacts_.size());
     forEach(
         before_.size(), swept.executor, [&](std::size_t i) { before_[i] = contacts_[i].impulse; }, wide_grain);
 }
@@ -323,7 +324,8 @@ SweepChange WideSweeper::changeOfBlock(std::size_t block) const {
 }
 
 void WideSweeper::restart() {
-    direction_.assign(contacts_.size(), Lanes3());
+    direction_.clear();
+    resizeTightly(direction_, contacts_.size());
 }
 
 void WideSweeper::accelerate(double beta, const SweptBatch& swept) {

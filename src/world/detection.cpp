@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "math/arrays.h"
 #include "narrow_phase/narrow_phase.h"
 
 namespace cairn {
@@ -60,8 +61,8 @@ constexpr double same_place = 1e-3;
 constexpr double same_direction = 0.999;
 
 /// Whether another contact of the pair is at the same place; the deeper of the two stays.
-bool mergeInto(std::span<Contact> others, const Vec3& point, const Vec3& normal, double distance, double reach) {
-    for (Contact& other : others) {
+bool mergeInto(std::span<FoundContact> others, const Vec3& point, const Vec3& normal, double distance, double reach) {
+    for (FoundContact& other : others) {
         if ((other.point - point).squaredNorm() > reach * reach) continue;
         if (other.normal.dot(normal) < same_direction) continue;
         if (distance < other.distance) {
@@ -74,13 +75,12 @@ bool mergeInto(std::span<Contact> others, const Vec3& point, const Vec3& normal,
     return false;
 }
 
-Contact contactOf(const BodyPair& pair, const Vec3& point, const Vec3& normal, double distance,
-                  const PairProperties& properties) {
-    return {.a = pair.a,
-            .b = pair.b,
-            .point = point,
-            .normal = normal,
-            .distance = distance,
+Contact contactOf(const FoundContact& found, const PairProperties& properties) {
+    return {.a = found.a,
+            .b = found.b,
+            .point = found.point,
+            .normal = found.normal,
+            .distance = found.distance,
             .restitution = properties.restitution,
             .static_friction = properties.static_friction,
             .kinetic_friction = properties.kinetic_friction,
@@ -89,8 +89,8 @@ Contact contactOf(const BodyPair& pair, const Vec3& point, const Vec3& normal, d
 }
 
 /// Appends the contacts of one pair.
-void collidePair(const BodyStorage& bodies, const BodyPair& pair, const PairProperties& properties, double margin,
-                 Manifold& manifold, std::vector<Contact>& contacts) {
+void collidePair(const BodyStorage& bodies, const BodyPair& pair, double margin, Manifold& manifold,
+                 std::vector<FoundContact>& contacts) {
     const std::size_t first = contacts.size();
     const double reach = same_place * std::min(bodies.r_max[pair.a], bodies.r_max[pair.b]);
     const auto add = [&](const Manifold& found) {
@@ -99,7 +99,7 @@ void collidePair(const BodyStorage& bodies, const BodyPair& pair, const PairProp
         for (std::size_t k = 0; k < found.size; ++k) {
             const auto& [point, distance] = found.points[k];
             if (mergeInto(std::span(contacts).subspan(first, earlier), point, found.normal, distance, reach)) continue;
-            contacts.push_back(contactOf(pair, point, found.normal, distance, properties));
+            contacts.push_back({pair.a, pair.b, point, found.normal, distance});
         }
     };
     forEachManifold(bodies.shape[pair.a], bodies.shapePose(pair.a), bodies.shape[pair.b], bodies.shapePose(pair.b),
@@ -139,22 +139,20 @@ bool isExcluded(std::span<const BodyPair> excluded, const BodyPair& pair) {
 }
 
 /// Threads own ascending blocks of the sorted pairs, so joining them in order keeps the contacts sorted.
-void joinContacts(const Executor& executor, StepData& data) {
+void joinContacts(const BodyStorage& bodies, const MaterialTable& materials, const Executor& executor, StepData& data) {
     std::size_t total = 0;
-    for (const auto& contacts : data.thread_contacts) total += contacts.size();
-    if (data.thread_contacts.front().size() == total) {
-        std::swap(data.contacts, data.thread_contacts.front());
-        return;
-    }
-    data.contacts.resize(total);
+    for (const auto& found : data.thread_contacts) total += found.size();
+    resizeTightly(data.contacts, total);
     executor.forBlocks(
         data.thread_contacts.size(),
         [&](std::size_t begin, std::size_t end, int) {
-            std::size_t first = 0;
-            for (std::size_t t = 0; t < begin; ++t) first += data.thread_contacts[t].size();
+            std::size_t next = 0;
+            for (std::size_t t = 0; t < begin; ++t) next += data.thread_contacts[t].size();
             for (std::size_t t = begin; t < end; ++t) {
-                std::ranges::copy(data.thread_contacts[t], data.contacts.begin() + static_cast<std::ptrdiff_t>(first));
-                first += data.thread_contacts[t].size();
+                for (const FoundContact& found : data.thread_contacts[t]) {
+                    data.contacts[next++] =
+                        contactOf(found, materials.pair(bodies.material[found.a], bodies.material[found.b]));
+                }
             }
         },
         1);
@@ -179,19 +177,18 @@ void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, B
             for (std::size_t i = begin; i < end; ++i) {
                 const BodyPair& pair = data.pairs[i];
                 if (isExcluded(data.excluded, pair)) continue;
-                const PairProperties& properties = materials.pair(bodies.material[pair.a], bodies.material[pair.b]);
                 const bool still = data.still.areStill(pair.a, pair.b);
                 const auto last = still ? last_contacts.of(pair) : std::span<const Contact>();
                 if (last.empty() && !(still && data.still.all_tested)) {
-                    collidePair(bodies, pair, properties, margin, manifold, contacts);
+                    collidePair(bodies, pair, margin, manifold, contacts);
                 }
                 for (const Contact& c : last) {
-                    contacts.push_back(contactOf(pair, c.point, c.normal, c.distance, properties));
+                    contacts.push_back({c.a, c.b, c.point, c.normal, c.distance});
                 }
             }
         },
         pair_grain);
-    joinContacts(executor, data);
+    joinContacts(bodies, materials, executor, data);
     data.still.all_tested = data.excluded.empty();
 }
 

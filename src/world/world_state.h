@@ -65,14 +65,23 @@ struct StillBodies {
     bool areStill(BodyIndex a, BodyIndex b) const { return (still[a] & still[b]) != 0; }
 };
 
+/// What the detection finds of a contact.
+struct FoundContact {
+    BodyIndex a;
+    BodyIndex b;
+    Vec3 point;       ///< [m, W]
+    Vec3 normal;      ///< from B to A
+    double distance;  ///< [m]
+};
+
 /// The arrays that one stage leaves to the next; nothing else travels between stages. Named with their producer.
 struct StepData {
-    std::vector<Bounds> bounds;                         ///< detection: [slots] grown by the contact margin [m, W]
-    std::vector<BodyPair> pairs;                        ///< detection: near pairs, sorted
-    std::vector<BodyPair> moved_pairs;                  ///< detection: those of which a body moved
-    std::vector<BodyPair> still_pairs;                  ///< detection: the others
-    StillBodies still;                                  ///< detection: which bodies are where they were
-    std::vector<std::vector<Contact>> thread_contacts;  ///< detection: [threads], joined into contacts
+    std::vector<Bounds> bounds;                              ///< detection: [slots] grown by the contact margin [m, W]
+    std::vector<BodyPair> pairs;                             ///< detection: near pairs, sorted
+    std::vector<BodyPair> moved_pairs;                       ///< detection: those of which a body moved
+    std::vector<BodyPair> still_pairs;                       ///< detection: the others
+    StillBodies still;                                       ///< detection: which bodies are where they were
+    std::vector<std::vector<FoundContact>> thread_contacts;  ///< detection: [threads], joined into contacts
     std::vector<Contact> contacts;        ///< detection, changed by correction and resolution: sorted by (a, b)
     ContactsOfBodies contacts_of;         ///< batches: [slots] contact indices
     Batches batches;                      ///< batches: groups in canonical order

@@ -1,0 +1,16 @@
+/// @file Arrays that follow a number which changes a little from step to step.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace cairn {
+
+/// Resizes an array; where it must grow it gets an eighth more than asked for, not twice what it had.
+template <class Element>
+void resizeTightly(std::vector<Element>& array, std::size_t size) {
+    if (size > array.capacity()) array.reserve(size + size / 8);
+    array.resize(size);
+}
+
+}  // namespace cairn
