@@ -59,18 +59,19 @@ void checkContact(const WorldState& world, std::size_t index) {
     const std::vector<Contact>& contacts = world.data.contacts;
     const Contact& c = contacts[index];
     const BodyStorage& b = world.bodies;
-    const std::string title = fmt::format("contact {} of bodies {} and {}", index, c.a, c.b);
+    // Written only when it is needed: that takes longer than all checks together.
+    const auto title = [&] { return fmt::format("contact {} of bodies {} and {}", index, c.a, c.b); };
     const bool known = c.a < c.b && c.b < b.slots() && b.kind[c.a] != BodyKind::hole && b.kind[c.b] != BodyKind::hole;
-    if (!known) fail(world, title + " names bodies that are not in the world");
+    if (!known) fail(world, title() + " names bodies that are not in the world");
     if (!(std::abs(c.normal.norm() - 1) <= unit_error)) {
-        fail(world, fmt::format("{} has a normal of length {}, not 1", title, c.normal.norm()));
+        fail(world, fmt::format("{} has a normal of length {}, not 1", title(), c.normal.norm()));
     }
     if (!c.point.allFinite() || !std::isfinite(c.distance) || !c.impulse.allFinite()) {
-        fail(world, title + " is not finite");
+        fail(world, title() + " is not finite");
     }
     if (index == 0) return;
     const Contact& last = contacts[index - 1];
-    if (c.a < last.a || (c.a == last.a && c.b < last.b)) fail(world, title + " is out of order");
+    if (c.a < last.a || (c.a == last.a && c.b < last.b)) fail(world, title() + " is out of order");
 }
 
 }  // namespace
