@@ -87,14 +87,28 @@ class alignas(sizeof(Lanes)) Lanes3 {
     return {where(condition, yes.x(), no.x()), where(condition, yes.y(), no.y()), where(condition, yes.z(), no.z())};
 }
 
-/// Runs work compiled for the vectors that this processor has. @param work a callable that is always inlined
+#if defined(__x86_64__)
 template <class Work>
 [[gnu::target("avx2")]] void runWithAvx2(const Work& work) {
     work();
 }
+inline bool hasAvx2() {
+    return __builtin_cpu_supports("avx2") != 0;
+}
+#else
+template <class Work>
+void runWithAvx2(const Work& work) {
+    work();
+}
+inline bool hasAvx2() {
+    return false;
+}
+#endif
+
+/// Runs work compiled for the vectors that this processor has. @param work a callable that is always inlined
 template <class Work>
 void runOnLanes(const Work& work) {
-    if (__builtin_cpu_supports("avx2")) {
+    if (hasAvx2()) {
         runWithAvx2(work);
     } else {
         work();
