@@ -96,9 +96,10 @@ void HashGrids::enterBlocks(const BroadPhaseInput& input) {
     address_.resize(slots);
     moved_.assign(levels_.levels(), 0);
     for (BodyIndex i = 0; i < slots; ++i) {
-        if (level[i] == GridLevels::apart) apart_.push_back(i);
-        if (level[i] < 0) continue;
-        const auto own_level = static_cast<std::size_t>(level[i]);
+        const int on_level = level[i];
+        if (on_level == GridLevels::apart) apart_.push_back(i);
+        if (on_level < 0) continue;
+        const auto own_level = static_cast<std::size_t>(on_level);
         const CellCoordinates at = cellOf(input.bounds[i].lower, levels_.edgeInv(own_level));
         const std::uint32_t block = table_.enter({at.x >> 2, at.y >> 2, at.z >> 2, level[i]});
         const auto position = static_cast<unsigned>((at.x & 3) + 4 * (at.y & 3) + 16 * (at.z & 3));

@@ -208,7 +208,9 @@ Scene heapScene(std::string name, int bodies) {
     for (int i = 0; i < bodies; ++i) {
         const double radius = random.between(smallest, largest);
         const Shape shape = randomShape(random, radius);
-        const Vec3 index(i % side + 0.5 - 0.5 * side, i / side % side + 0.5 - 0.5 * side, i / (side * side) + 0.5);
+        const int row = i / side % side;
+        const int layer = i / (side * side);
+        const Vec3 index(i % side + 0.5 - 0.5 * side, row + 0.5 - 0.5 * side, layer + 0.5);
         const Vec3 shift = (0.49 * cell - radius) * random.symmetricVector();
         SceneBody body = dynamicBody(shape, "oak", cell * index + shift);
         body.orientation = randomOrientation(random);

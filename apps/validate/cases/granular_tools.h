@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -32,13 +33,15 @@ enum class Turned { a_little, any_way };
 
 /// A world with grains of one material and walls of another.
 struct Grains {
+    Random random;
     World world;
     MaterialId wall;
     std::vector<BodyId> ids;
-    Random random{7};
 
-    Grains(const Settings& settings, const PairProperties& between, const PairProperties& at_walls)
-        : world(makeWorld(settings, Vec3(0, 0, -g), between)),
+    Grains(const Settings& settings, const PairProperties& between, const PairProperties& at_walls,
+           std::uint64_t seed = 7)
+        : random(seed),
+          world(makeWorld(settings, Vec3(0, 0, -g), between)),
           wall(world.addMaterial({.name = "wall", .density = 1000})) {
         world.setPairProperties(MaterialId{0}, wall, at_walls);
     }
