@@ -1,5 +1,6 @@
 #include "parallel/crew.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -33,6 +34,12 @@ std::uint64_t sharesOf(std::uint64_t news) {
     return news & dismissed;
 }
 
+/// Processors that the threads of this program may use; as many as anybody may ask for where that is not known.
+int processors() {
+    const unsigned known = std::thread::hardware_concurrency();
+    return known == 0 ? Crew::most_threads : static_cast<int>(known);
+}
+
 void relax() {
 #if defined(__x86_64__) || defined(__i386__)
     __builtin_ia32_pause();
@@ -60,16 +67,13 @@ void onThreads(int threads, FunctionRef<void(int)> work) {
 
 }  // namespace
 
-Crew::Crew(int threads)
-    : threads_(threads),
-      spins_(static_cast<unsigned>(threads) <= std::thread::hardware_concurrency()),
-      claims_(static_cast<std::size_t>(threads)) {}
+Crew::Crew(int threads) : present_(std::min(threads, processors())), claims_(static_cast<std::size_t>(threads)) {}
 
 void Crew::gather(FunctionRef<void()> work) {
     std::exception_ptr failure;
     together_ = true;
     const std::uint64_t known = news_.load(std::memory_order_relaxed);
-    onThreads(threads_, [&](int thread) {
+    onThreads(present_, [&](int thread) {
         if (thread > 0) {
             help(thread, known);
             return;
@@ -94,7 +98,7 @@ void Crew::run(int shares, FunctionRef<void(int)> work) {
     // Helpers begin with their own share: those of the last are the least likely to be here already.
     for (int share = shares; --share > 0;) takeShare(news, share);
     for (int i = 1; unfinished_.load(std::memory_order_acquire) > 0; ++i) {
-        if (!spins_ || i % spin_rounds == 0) std::this_thread::yield();
+        if (i % spin_rounds == 0) std::this_thread::yield();
         relax();
     }
     if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
@@ -111,7 +115,7 @@ void Crew::help(int helper, std::uint64_t known) {
 /// Returns once there is something else to do than what is known.
 std::uint64_t Crew::awaitNews(std::uint64_t known) {
     const auto begin = std::chrono::steady_clock::now();
-    while (spins_ && std::chrono::steady_clock::now() - begin < patience) {
+    while (std::chrono::steady_clock::now() - begin < patience) {
         for (int i = 0; i < spin_rounds; ++i) {
             const std::uint64_t news = news_.load(std::memory_order_acquire);
             if (news != known) return news;

@@ -40,8 +40,7 @@ class Crew {
     void announce(std::uint64_t news);
     void takeShare(std::uint64_t news, int share);
 
-    int threads_;
-    bool spins_;  ///< waiting threads have processors of their own
+    int present_;  ///< threads that come: no more than there are processors, they take the shares of the others
     bool together_ = false;
     std::uint64_t round_ = 0;  ///< number of the last loop
     std::vector<Claim> claims_;
