@@ -19,7 +19,7 @@ constexpr std::chrono::microseconds patience{200};
 /// Rounds of spinning between two looks at the clock, and before a waiting caller lets others have its processor.
 constexpr int spin_rounds = 256;
 
-/// Number of shares that ends the gathering. The rest of the news, 48 bits, numbers the loops.
+/// Number of shares that sends the helpers home. The rest of the news, 48 bits, numbers the loops.
 constexpr std::uint64_t dismissed = 0xffff;
 
 std::uint64_t newsOf(std::uint64_t round, std::uint64_t shares) {
@@ -48,7 +48,7 @@ void relax() {
 
 #ifdef _OPENMP
 
-/// Runs a function once on each of several threads, or on fewer if no more are to be had; thread 0 is the caller's.
+/// Calls work(thread) once on each of several threads, or on fewer if no more are to be had.
 void onThreads(int threads, FunctionRef<void(int)> work) {
 #pragma omp parallel num_threads(threads) default(none) shared(work)
     work(omp_get_thread_num());
@@ -69,27 +69,16 @@ void onThreads(int threads, FunctionRef<void(int)> work) {
 
 Crew::Crew(int threads) : present_(std::min(threads, processors())), claims_(static_cast<std::size_t>(threads)) {}
 
-void Crew::gather(FunctionRef<void()> work) {
-    std::exception_ptr failure;
-    together_ = true;
-    const std::uint64_t known = news_.load(std::memory_order_relaxed);
-    onThreads(present_, [&](int thread) {
-        if (thread > 0) {
-            help(thread, known);
-            return;
-        }
-        try {
-            work();
-        } catch (...) {
-            failure = std::current_exception();
-        }
-        announce(newsOf(++round_, dismissed));
-    });
-    together_ = false;
-    if (failure) std::rethrow_exception(failure);
+Crew::~Crew() {
+    if (!foreman_.joinable()) return;
+    announce(newsOf(++round_, dismissed));
+    foreman_.join();
 }
 
 void Crew::run(int shares, FunctionRef<void(int)> work) {
+    if (present_ > 1 && !foreman_.joinable()) {
+        foreman_ = std::thread([this] { onThreads(present_ - 1, [this](int thread) { help(thread + 1); }); });
+    }
     work_ = &work;
     unfinished_.store(shares, std::memory_order_relaxed);
     const std::uint64_t news = newsOf(++round_, static_cast<std::uint64_t>(shares));
@@ -104,8 +93,8 @@ void Crew::run(int shares, FunctionRef<void(int)> work) {
     if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
-void Crew::help(int helper, std::uint64_t known) {
-    for (std::uint64_t news = awaitNews(known); sharesOf(news) != dismissed; news = awaitNews(news)) {
+void Crew::help(int helper) {
+    for (std::uint64_t news = awaitNews(0); sharesOf(news) != dismissed; news = awaitNews(news)) {
         const auto shares = static_cast<int>(sharesOf(news));
         if (helper < shares) takeShare(news, helper);
         for (int share = 1; share < shares; ++share) takeShare(news, share);

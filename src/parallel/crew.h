@@ -1,4 +1,4 @@
-/// @file Threads that stay at hand between the loops of a step.
+/// @file Threads that stay at hand from loop to loop. The only place that knows OpenMP.
 #pragma once
 
 #include <atomic>
@@ -6,27 +6,29 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 #include "parallel/function_ref.h"
 
 namespace cairn {
 
-/// A caller and its helpers, who wait for loops between which the caller works alone. Starting a loop costs a fraction
-/// of a microsecond. Whoever is free takes the next share of a loop that nobody has begun: helpers who get their
-/// processor late, on a machine that is busy with other things, find their share done and keep nobody waiting.
+/// A caller and its helpers, who wait for loops between which the caller works alone. Starting a loop costs about a
+/// microsecond. Whoever is free takes the next share of a loop that nobody has begun, and the caller waits for nothing
+/// but shares that somebody has: helpers who get their processor late, on a machine that is busy with other things,
+/// find their share done and keep nobody waiting.
 class Crew {
   public:
     static constexpr int most_threads = 0xfffe;
 
-    /// @param threads caller and helpers together, 2 to most_threads
+    /// The helpers come with the first loop. @param threads caller and helpers together, 2 to most_threads
     explicit Crew(int threads);
+    ~Crew();
+    Crew(const Crew&) = delete;
+    Crew& operator=(const Crew&) = delete;
 
-    bool isTogether() const { return together_; }
-    /// Runs work on the caller's thread while the helpers are at hand. Exceptions of the work are passed on.
-    void gather(FunctionRef<void()> work);
     /// Runs work(share) once for each share in [0, shares) and returns when all have been done. If some throw, the
-    /// exception of the lowest share is thrown at the end. @pre isTogether(), shares ≤ threads, not called by a share
+    /// exception of the lowest share is thrown at the end. @pre shares ≤ threads, not called by a share
     void run(int shares, FunctionRef<void(int)> work);
 
   private:
@@ -35,13 +37,12 @@ class Crew {
         std::atomic<std::uint64_t> round = 0;
     };
 
-    void help(int helper, std::uint64_t known);
+    void help(int helper);
     std::uint64_t awaitNews(std::uint64_t known);
     void announce(std::uint64_t news);
     void takeShare(std::uint64_t news, int share);
 
     int present_;  ///< threads that come: no more than there are processors, they take the shares of the others
-    bool together_ = false;
     std::uint64_t round_ = 0;  ///< number of the last loop
     std::vector<Claim> claims_;
 
@@ -55,6 +56,7 @@ class Crew {
     alignas(64) std::atomic<int> sleeping_ = 0;        ///< helpers that wait for awaken_
     std::mutex sleep_;
     std::condition_variable awaken_;
+    std::thread foreman_;  ///< brings the helpers, and is one of them; waits for the others when the crew is dismissed
 };
 
 }  // namespace cairn

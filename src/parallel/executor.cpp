@@ -9,18 +9,6 @@ Executor::Executor(int threads)
     : threads_(std::clamp(threads, 1, Crew::most_threads)),
       crew_(threads_ > 1 ? std::make_unique<Crew>(threads_) : nullptr) {}
 
-void Executor::together(FunctionRef<void()> work) const {
-    if (crew_ && !crew_->isTogether()) {
-        crew_->gather(work);
-    } else {
-        work();
-    }
-}
-
-void Executor::run(int shares, FunctionRef<void(int)> work) const {
-    together([&] { crew_->run(shares, work); });
-}
-
 void Executor::forBlocks(std::size_t count, FunctionRef<void(std::size_t, std::size_t, int)> work,
                          std::size_t grain) const {
     if (count == 0) return;
@@ -29,7 +17,7 @@ void Executor::forBlocks(std::size_t count, FunctionRef<void(std::size_t, std::s
         work(0, count, 0);
         return;
     }
-    run(static_cast<int>(blocks), [&](int thread) {
+    crew_->run(static_cast<int>(blocks), [&](int thread) {
         const auto block = static_cast<std::size_t>(thread);
         work(count * block / blocks, count * (block + 1) / blocks, thread);
     });
@@ -41,7 +29,7 @@ void Executor::forEachDynamic(std::size_t count, FunctionRef<void(std::size_t, i
         return;
     }
     std::atomic<std::size_t> next = 0;
-    run(threads_, [&](int thread) {
+    crew_->run(threads_, [&](int thread) {
         for (std::size_t i = next++; i < count; i = next++) work(i, thread);
     });
 }

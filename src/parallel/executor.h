@@ -19,9 +19,6 @@ class Executor {
 
     int threads() const { return threads_; }
 
-    /// Keeps the threads at hand for all loops that the work runs. Loops outside gather them anew, each for itself.
-    void together(FunctionRef<void()> work) const;
-
     /// Splits [0, count) into one contiguous block per thread ("static" of thesis §4), ascending with the thread.
     /// @param work called with (begin, end, thread), thread in [0, threads())
     /// @param grain fewest items worth a thread of their own: starting one costs about as much as 1 µs of work
@@ -33,8 +30,6 @@ class Executor {
     void forEachDynamic(std::size_t count, FunctionRef<void(std::size_t, int)> work) const;
 
   private:
-    void run(int shares, FunctionRef<void(int)> work) const;
-
     int threads_;
     std::unique_ptr<Crew> crew_;  ///< none for one thread
 };

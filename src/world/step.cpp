@@ -174,7 +174,9 @@ void outputStage(WorldState& world) {
     summarize(world);
 }
 
-void step(WorldState& world) {
+}  // namespace
+
+void stepWorld(WorldState& world) {
     ++world.steps;
     world.statistics = {};
     Statistics& statistics = world.statistics;
@@ -219,12 +221,6 @@ void step(WorldState& world) {
     // A quotient, not a sum: after a million steps the time is still exact to one rounding.
     const auto since = static_cast<double>(world.steps - world.steps_at_start);
     world.time = world.time_at_start + since / world.settings.steps_per_second;
-}
-
-}  // namespace
-
-void stepWorld(WorldState& world) {
-    world.executor.together([&world] { step(world); });
 }
 
 }  // namespace cairn

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <stdexcept>
 #include <thread>
@@ -55,47 +56,45 @@ TEST_P(ExecutorOnThreads, ExceptionsOfWorkReachTheCaller) {
                  std::runtime_error);
 }
 
-TEST_P(ExecutorOnThreads, ManyLoopsTogetherDoEveryShareOnce) {
+TEST_P(ExecutorOnThreads, ManyLoopsDoEveryShareOnce) {
     const Executor executor(GetParam());
     constexpr int loops = 3000;
     std::vector<int> visits(64);
-    executor.together([&] {
-        for (int loop = 0; loop < loops; ++loop) {
-            executor.forBlocks(
-                visits.size(),
-                [&](std::size_t begin, std::size_t end, int) {
-                    for (std::size_t i = begin; i < end; ++i) ++visits[i];
-                },
-                1);
-            executor.forEachDynamic(visits.size() / 2, [&](std::size_t i, int) { ++visits[i]; });
-        }
-    });
+    for (int loop = 0; loop < loops; ++loop) {
+        executor.forBlocks(
+            visits.size(),
+            [&](std::size_t begin, std::size_t end, int) {
+                for (std::size_t i = begin; i < end; ++i) ++visits[i];
+            },
+            1);
+        executor.forEachDynamic(visits.size() / 2, [&](std::size_t i, int) { ++visits[i]; });
+    }
     for (std::size_t i = 0; i < visits.size(); ++i) EXPECT_EQ(visits[i], i < visits.size() / 2 ? 2 * loops : loops);
 }
 
 TEST_P(ExecutorOnThreads, LoopsWorkAgainAfterHelpersFellAsleep) {
     const Executor executor(GetParam());
-    executor.together([&] {
-        for (int round = 0; round < 3; ++round) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-            std::vector<int> visits(100);
-            executor.forBlocks(
-                visits.size(),
-                [&](std::size_t begin, std::size_t end, int) {
-                    for (std::size_t i = begin; i < end; ++i) ++visits[i];
-                },
-                1);
-            EXPECT_TRUE(std::ranges::all_of(visits, [](int n) { return n == 1; }));
-        }
-    });
+    for (int round = 0; round < 3; ++round) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        std::vector<int> visits(100);
+        executor.forBlocks(
+            visits.size(),
+            [&](std::size_t begin, std::size_t end, int) {
+                for (std::size_t i = begin; i < end; ++i) ++visits[i];
+            },
+            1);
+        EXPECT_TRUE(std::ranges::all_of(visits, [](int n) { return n == 1; }));
+    }
 }
 
-TEST_P(ExecutorOnThreads, AnExceptionBetweenLoopsEndsTheGathering) {
-    const Executor executor(GetParam());
-    EXPECT_THROW(executor.together([] { throw std::runtime_error("work failed"); }), std::runtime_error);
-    int calls = 0;
-    executor.together([&] { ++calls; });
-    EXPECT_EQ(calls, 1);
+TEST_P(ExecutorOnThreads, MayEndAtAnyTime) {
+    for (int round = 0; round < 50; ++round) {
+        const Executor unused(GetParam());
+        const Executor executor(GetParam());
+        std::atomic<int> calls = 0;
+        executor.forEachDynamic(4, [&](std::size_t, int) { ++calls; });
+        EXPECT_EQ(calls, 4);
+    }
 }
 
 TEST_P(ExecutorOnThreads, OfSeveralExceptionsTheLowestIsThrown) {
