@@ -16,9 +16,10 @@ namespace {
 
 using hdf5::checked;
 
-/// HDF5 reads metadata again when a writer was in the middle of it. Its own limit of 100 attempts takes minutes on a
-/// truncated file.
-constexpr unsigned metadata_read_attempts = 10;
+/// HDF5 reads metadata again when a writer was in the middle of it, and waits twice as long after each attempt, 1 ns
+/// first: this is an eighth of a second, in which also a writer on a busy machine gets its turn. Its own limit of 100
+/// attempts takes minutes on a truncated file.
+constexpr unsigned metadata_read_attempts = 27;
 
 hdf5::File openFile(const std::filesystem::path& path, const FileState& state) {
     // A file that its writer did not close (yet) can only be opened as a reader beside a writer.
