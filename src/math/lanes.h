@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "cairn/types.h"
+#include "math/triple.h"
 
 namespace cairn {
 
@@ -40,50 +40,22 @@ using LaneMask = std::int64_t __attribute__((vector_size(8 * lane_count)));
     return Lanes{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
 }
 
-/// Four vectors of three numbers. What holds Lanes in memory must say how it is aligned: compilers assume less where
-/// they know of no wide registers than where they do.
-class alignas(sizeof(Lanes)) Lanes3 {
-  public:
-    Lanes3() = default;
-    [[gnu::always_inline]] Lanes3(const Lanes& x, const Lanes& y, const Lanes& z) : x_(x), y_(y), z_(z) {}
+/// Four vectors of three numbers.
+using Lanes3 = Triple<Lanes>;
 
-    [[gnu::always_inline]] const Lanes& x() const { return x_; }
-    [[gnu::always_inline]] const Lanes& y() const { return y_; }
-    [[gnu::always_inline]] const Lanes& z() const { return z_; }
-
-    [[gnu::always_inline]] Lanes dot(const Lanes3& u) const { return x_ * u.x_ + y_ * u.y_ + z_ * u.z_; }
-    [[gnu::always_inline]] Lanes squaredNorm() const { return dot(*this); }
-    [[gnu::always_inline]] Lanes3 cross(const Lanes3& u) const {
-        return {y_ * u.z_ - z_ * u.y_, z_ * u.x_ - x_ * u.z_, x_ * u.y_ - y_ * u.x_};
-    }
-    [[gnu::always_inline]] Lanes3& operator+=(const Lanes3& u) { return *this = *this + u; }
-    [[gnu::always_inline]] Lanes3& operator-=(const Lanes3& u) { return *this = *this - u; }
-    [[gnu::always_inline]] friend Lanes3 operator+(const Lanes3& u, const Lanes3& v) {
-        return {u.x_ + v.x_, u.y_ + v.y_, u.z_ + v.z_};
-    }
-    [[gnu::always_inline]] friend Lanes3 operator-(const Lanes3& u, const Lanes3& v) {
-        return {u.x_ - v.x_, u.y_ - v.y_, u.z_ - v.z_};
-    }
-    [[gnu::always_inline]] friend Lanes3 operator*(const Lanes& s, const Lanes3& u) {
-        return {s * u.x_, s * u.y_, s * u.z_};
-    }
-
-    /// One of the four.
-    Vec3 lane(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
-    void setLane(std::size_t i, const Vec3& u) {
-        x_[i] = u.x();
-        y_[i] = u.y();
-        z_[i] = u.z();
-    }
-
-  private:
-    Lanes x_{}, y_{}, z_{};
-};
-
-[[gnu::always_inline]] inline Vec3 where(bool condition, const Vec3& yes, const Vec3& no) {
-    return condition ? yes : no;
+/// One of the four.
+inline Vec3 laneOf(const Lanes3& u, std::size_t lane) {
+    return {u.x()[lane], u.y()[lane], u.z()[lane]};
 }
-[[gnu::always_inline]] inline Lanes3 where(const LaneMask& condition, const Lanes3& yes, const Lanes3& no) {
+inline void setLane(Lanes3& u, std::size_t lane, const Vec3& value) {
+    u.x()[lane] = value.x();
+    u.y()[lane] = value.y();
+    u.z()[lane] = value.z();
+}
+
+template <class Mask, class Number>
+[[gnu::always_inline]] inline Triple<Number> where(const Mask& condition, const Triple<Number>& yes,
+                                                   const Triple<Number>& no) {
     return {where(condition, yes.x(), no.x()), where(condition, yes.y(), no.y()), where(condition, yes.z(), no.z())};
 }
 

@@ -147,9 +147,9 @@ class AcceleratedSweepsResolution final : public Resolution {
         for (std::size_t i = 0; i < contacts.size(); ++i) {
             const SweptContact& s = contacts[i];
             kept_[i] = s.impulse;
-            const Vec3 wanted = s.impulse + direct_.changes()[i];
+            const Triple1 wanted = s.impulse + Triple1(direct_.changes()[i]);
             const double normal = s.normal.dot(wanted);
-            const Vec3 allowed = normal > 0 ? ontoCone(s, normal, wanted - normal * s.normal) : Vec3(Vec3::Zero());
+            const Triple1 allowed = normal > 0 ? ontoCone(s, normal, wanted - normal * s.normal) : Triple1();
             plain_.setImpulse(i, allowed, local_);
         }
         return true;
@@ -165,7 +165,7 @@ class AcceleratedSweepsResolution final : public Resolution {
     WideSweeper wide_;
     BodyDirection direction_;
     DirectStep direct_;
-    std::vector<Vec3> kept_;  ///< [contacts] impulses before a direct step [N·s]
+    std::vector<Triple1> kept_;  ///< [contacts] impulses before a direct step [N·s]
 };
 
 }  // namespace

@@ -88,22 +88,25 @@ void DirectStep::assemble(const LocalBatch& batch, std::span<const SweptContact>
     for (std::size_t i = 0; i < swept.size(); ++i) {
         if (holds_[i] == Hold::none) continue;
         const SweptContact& contact = swept[i];
-        const Vec3& n = contact.normal;
+        const Vec3 n = toVec3(contact.normal);
+        const Vec3 r_a = toVec3(contact.r_a);
+        const Vec3 r_b = toVec3(contact.r_b);
         const Mat3 weight = stiffness_[i] * (holds_[i] == Hold::all ? Mat3(Mat3::Identity()) : Mat3(n * n.transpose()));
         const bool a_moves = !batch.isFixed(contact.a);
         const bool b_moves = !batch.isFixed(contact.b);
-        if (a_moves) matrix_.addDiagonal(contact.a, coupling(contact.r_a, weight, contact.r_a));
-        if (b_moves) matrix_.addDiagonal(contact.b, coupling(contact.r_b, weight, contact.r_b));
-        if (a_moves && b_moves) matrix_.add(contact.a, contact.b, -coupling(contact.r_a, weight, contact.r_b));
+        if (a_moves) matrix_.addDiagonal(contact.a, coupling(r_a, weight, r_a));
+        if (b_moves) matrix_.addDiagonal(contact.b, coupling(r_b, weight, r_b));
+        if (a_moves && b_moves) matrix_.add(contact.a, contact.b, -coupling(r_a, weight, r_b));
     }
 }
 
 Vec3 DirectStep::missing(const LocalBatch& batch, const SweptContact& contact, std::size_t i) const {
-    Vec3 velocity = relativeVelocity(contact, batch.bodies[contact.a], batch.bodies[contact.b]);
-    if (!batch.isFixed(contact.a)) velocity += velocityAt(motion_[contact.a], contact.r_a);
-    if (!batch.isFixed(contact.b)) velocity -= velocityAt(motion_[contact.b], contact.r_b);
-    const Vec3 lacking = contact.target * contact.normal - velocity;
-    return holds_[i] == Hold::all ? lacking : Vec3(contact.normal.dot(lacking) * contact.normal);
+    Vec3 velocity = toVec3(relativeVelocity(contact, read(batch.bodies[contact.a]), read(batch.bodies[contact.b])));
+    if (!batch.isFixed(contact.a)) velocity += velocityAt(motion_[contact.a], toVec3(contact.r_a));
+    if (!batch.isFixed(contact.b)) velocity -= velocityAt(motion_[contact.b], toVec3(contact.r_b));
+    const Vec3 n = toVec3(contact.normal);
+    const Vec3 lacking = contact.target * n - velocity;
+    return holds_[i] == Hold::all ? lacking : Vec3(n.dot(lacking) * n);
 }
 
 void DirectStep::solve(const LocalBatch& batch, std::span<const SweptContact> swept) {
@@ -115,8 +118,8 @@ void DirectStep::solve(const LocalBatch& batch, std::span<const SweptContact> sw
             if (holds_[i] == Hold::none) continue;
             const SweptContact& contact = swept[i];
             const Vec3 impulse = stiffness_[i] * missing(batch, contact, i);
-            if (!batch.isFixed(contact.a)) addForceAt(impulse, contact.r_a, force_[contact.a]);
-            if (!batch.isFixed(contact.b)) addForceAt(-impulse, contact.r_b, force_[contact.b]);
+            if (!batch.isFixed(contact.a)) addForceAt(impulse, toVec3(contact.r_a), force_[contact.a]);
+            if (!batch.isFixed(contact.b)) addForceAt(-impulse, toVec3(contact.r_b), force_[contact.b]);
         }
         matrix_.solve(force_);
         for (std::size_t i = 0; i < batch.dynamic_bodies; ++i) motion_[i] += force_[i];

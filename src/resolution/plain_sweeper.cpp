@@ -10,12 +10,15 @@ namespace cairn {
 namespace {
 
 /// False for what velocities give that are not finite: it would spread.
-bool isFinite(const Vec3& impulse) {
+[[gnu::always_inline]] inline bool isFinite(const Triple1& impulse) {
     return impulse.squaredNorm() < std::numeric_limits<double>::infinity();
 }
 
-void pushBodies(const SweptContact& contact, const Vec3& impulse, LocalBatch& local) {
-    push(contact, impulse, local.bodies[contact.a], local.bodies[contact.b]);
+[[gnu::always_inline]] inline void visit(SweptContact& contact, SweptBody<double>& a, SweptBody<double>& b) {
+    const Triple1 impulse = projectedImpulse(contact, relativeVelocity(contact, a, b));
+    if (!isFinite(impulse) || !isResolvable(contact)) return;
+    push(contact, impulse - contact.impulse, a, b);
+    contact.impulse = impulse;
 }
 
 }  // namespace
@@ -25,14 +28,36 @@ void PlainSweeper::begin(const SweptBatch& swept) {
     framed_ = swept.framed;
     rolling_.assign(framed_ ? swept.local.rolling.size() : 0, {});
     resizeTightly(contacts_, count);
-    for (std::size_t i = 0; i < count; ++i) beginContact(i, swept);
+    pair_begin_.clear();
     for (std::size_t i = 0; i < count; ++i) {
-        if (framed_) {
-            swept.local.pushWorld(swept.local.contacts[i], contacts_[i].impulse);
-        } else {
-            pushBodies(contacts_[i], contacts_[i].impulse, swept.local);
-        }
+        beginContact(i, swept);
+        if (i == 0 || swept.local.ends[i] != swept.local.ends[i - 1]) pair_begin_.push_back(i);
     }
+    pair_begin_.push_back(count);
+    if (framed_) {
+        for (std::size_t i = 0; i < count; ++i) {
+            swept.local.pushWorld(swept.local.contacts[i], toVec3(contacts_[i].impulse));
+        }
+        return;
+    }
+    for (std::size_t pair = 0; pair + 1 < pair_begin_.size(); ++pair) {
+        visitPair(pair, swept.local, [&](std::size_t begin, std::size_t end, auto& a, auto& b) {
+            for (std::size_t i = begin; i < end; ++i) push(contacts_[i], contacts_[i].impulse, a, b);
+        });
+    }
+}
+
+/// Calls visit(first contact, end, a, b). What follows each other meets its bodies in registers.
+template <class Visit>
+void PlainSweeper::visitPair(std::size_t pair, LocalBatch& local, const Visit& visit) {
+    const std::size_t begin = pair_begin_[pair];
+    LocalBody& a = local.bodies[contacts_[begin].a];
+    LocalBody& b = local.bodies[contacts_[begin].b];
+    SweptBody<double> swept_a = read(a);
+    SweptBody<double> swept_b = read(b);
+    visit(begin, pair_begin_[pair + 1], swept_a, swept_b);
+    write(swept_a, a);
+    write(swept_b, b);
 }
 
 void PlainSweeper::beginContact(std::size_t i, const SweptBatch& swept) {
@@ -41,11 +66,11 @@ void PlainSweeper::beginContact(std::size_t i, const SweptBatch& swept) {
     SweptContact& s = contacts_[i];
     s.a = local.ends[i].a;
     s.b = local.ends[i].b;
-    s.normal = contact.normal;
-    s.r_a = contact.point - swept.bodies.position[contact.a];
-    s.r_b = contact.point - swept.bodies.position[contact.b];
-    const LocalBody& a = local.bodies[s.a];
-    const LocalBody& b = local.bodies[s.b];
+    s.normal = Triple1(contact.normal);
+    s.r_a = Triple1(contact.point - swept.bodies.position[contact.a]);
+    s.r_b = Triple1(contact.point - swept.bodies.position[contact.b]);
+    const SweptBody<double> a = read(local.bodies[s.a]);
+    const SweptBody<double> b = read(local.bodies[s.b]);
     Symmetric3 k;
     if (framed_ && local.joints.holds(local.contacts[i])) {
         const ContactFrame& frame = local.contacts[i];
@@ -59,40 +84,41 @@ void PlainSweeper::beginContact(std::size_t i, const SweptBatch& swept) {
     s.friction = contact.static_friction;
     const double closing = s.normal.dot(relativeVelocity(s, a, b));
     s.target = ContactLaw::separatingSpeed(swept.settings, contact, closing);
-    s.impulse = contact.last_impulse;
-    if (!(s.normal.dot(s.impulse) > 0) || !isResolvable(s)) s.impulse.setZero();
+    s.impulse = Triple1(contact.last_impulse);
+    if (!(s.normal.dot(s.impulse) > 0) || !isResolvable(s)) s.impulse = Triple1();
 }
 
 void PlainSweeper::sweep(const SweptBatch& swept) {
     if (framed_) {
         for (std::size_t i = 0; i < contacts_.size(); ++i) visitFramed(i, swept.local);
         for (std::size_t i = contacts_.size(); i-- > 0;) visitFramed(i, swept.local);
-    } else {
-        for (std::size_t i = 0; i < contacts_.size(); ++i) visit(contacts_[i], swept.local);
-        for (std::size_t i = contacts_.size(); i-- > 0;) visit(contacts_[i], swept.local);
+        return;
     }
-}
-
-void PlainSweeper::visit(SweptContact& contact, LocalBatch& local) {
-    const Vec3 velocity = relativeVelocity(contact, local.bodies[contact.a], local.bodies[contact.b]);
-    const Vec3 impulse = projectedImpulse(contact, velocity);
-    if (!isFinite(impulse) || !isResolvable(contact)) return;
-    pushBodies(contact, impulse - contact.impulse, local);
-    contact.impulse = impulse;
+    const std::size_t pairs = pair_begin_.size() - 1;
+    for (std::size_t pair = 0; pair < pairs; ++pair) {
+        visitPair(pair, swept.local, [&](std::size_t begin, std::size_t end, auto& a, auto& b) {
+            for (std::size_t i = begin; i < end; ++i) visit(contacts_[i], a, b);
+        });
+    }
+    for (std::size_t pair = pairs; pair-- > 0;) {
+        visitPair(pair, swept.local, [&](std::size_t begin, std::size_t end, auto& a, auto& b) {
+            for (std::size_t i = end; i-- > begin;) visit(contacts_[i], a, b);
+        });
+    }
 }
 
 void PlainSweeper::visitFramed(std::size_t i, LocalBatch& local) {
     SweptContact& contact = contacts_[i];
     const ContactFrame& frame = local.contacts[i];
-    const Vec3 velocity = relativeVelocity(contact, local.bodies[contact.a], local.bodies[contact.b]);
-    if (!isResolvable(contact) || !velocity.allFinite()) return;
+    const Triple1 velocity = relativeVelocity(contact, read(local.bodies[contact.a]), read(local.bodies[contact.b]));
+    if (!isResolvable(contact) || !isFinite(velocity)) return;
     if (frame.rolling != ContactFrame::rolls_freely) {
         visitRolling(contact, frame, local);
         return;
     }
-    const Vec3 impulse = projectedImpulse(contact, velocity);
+    const Triple1 impulse = projectedImpulse(contact, velocity);
     if (!isFinite(impulse)) return;
-    local.pushWorld(frame, impulse - contact.impulse);
+    local.pushWorld(frame, toVec3(impulse - contact.impulse));
     contact.impulse = impulse;
 }
 
@@ -101,19 +127,23 @@ void PlainSweeper::visitRolling(SweptContact& contact, const ContactFrame& frame
     Vec6 excess = relativeTwist(frame, local.bodies[frame.a], local.bodies[frame.b]);
     excess[0] -= contact.target;
     Vec6 present;
-    present << frame.basis.transpose() * contact.impulse, turned.impulse;
+    present << frame.basis.transpose() * toVec3(contact.impulse), turned.impulse;
     const Vec6 next = solveRolling(local.rolling[frame.rolling], contact.friction, contact.friction, excess, present,
                                    RollingRounds::few);
     const Vec3 impulse = frame.basis * next.head<3>();
-    local.pushWorld(frame, impulse - contact.impulse);
+    local.pushWorld(frame, impulse - toVec3(contact.impulse));
     local.turn(frame, next.tail<3>() - turned.impulse);
-    contact.impulse = impulse;
+    contact.impulse = Triple1(impulse);
     turned.impulse = next.tail<3>();
 }
 
-void PlainSweeper::setImpulse(std::size_t contact, const Vec3& impulse, LocalBatch& local) {
+void PlainSweeper::setImpulse(std::size_t contact, const Triple1& impulse, LocalBatch& local) {
     SweptContact& s = contacts_[contact];
-    pushBodies(s, impulse - s.impulse, local);
+    SweptBody<double> a = read(local.bodies[s.a]);
+    SweptBody<double> b = read(local.bodies[s.b]);
+    push(s, impulse - s.impulse, a, b);
+    write(a, local.bodies[s.a]);
+    write(b, local.bodies[s.b]);
     s.impulse = impulse;
 }
 
@@ -128,8 +158,8 @@ SweepChange PlainSweeper::change(const SweptBatch& swept) {
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
         const SweptContact& s = contacts_[i];
         if (!isResolvable(s)) continue;
-        const Vec3 difference = s.impulse - before_[i];
-        change.add({difference.squaredNorm() / s.normal_mass, (s.k * difference).norm()});
+        const Triple1 difference = s.impulse - before_[i];
+        change.add({difference.squaredNorm() / s.normal_mass, squareRoot((s.k * difference).squaredNorm())});
     }
     if (!rolling_.empty()) addRollingChange(swept.local, change);
     return change;
@@ -145,14 +175,14 @@ void PlainSweeper::addRollingChange(const LocalBatch& local, SweepChange& change
 }
 
 void PlainSweeper::restart() {
-    direction_.assign(contacts_.size(), Vec3::Zero());
+    direction_.assign(contacts_.size(), Triple1());
     for (Rolling& r : rolling_) r.direction.setZero();
 }
 
 void PlainSweeper::accelerate(double beta, const SweptBatch&) {
-    const auto advance = [beta](Vec3& impulse, const Vec3& before, Vec3& direction) {
-        const Vec3 change = impulse - before;
-        const Vec3 step = beta * direction;
+    const auto advance = [beta]<class Vector>(Vector& impulse, const Vector& before, Vector& direction) {
+        const Vector change = impulse - before;
+        const Vector step = beta * direction;
         impulse += step;
         direction = change + step;
     };
@@ -176,7 +206,7 @@ bool PlainSweeper::releaseSliding(const SweptBatch& swept) {
 void PlainSweeper::finish(const SweptBatch& swept) {
     if (framed_) settleFrames(swept);
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
-        swept.contacts[swept.batch.contacts[i]].impulse += contacts_[i].impulse;
+        swept.contacts[swept.batch.contacts[i]].impulse += toVec3(contacts_[i].impulse);
     }
 }
 
@@ -185,7 +215,7 @@ void PlainSweeper::settleFrames(const SweptBatch& swept) {
     LocalBatch& local = swept.local;
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
         ContactFrame& frame = local.contacts[i];
-        frame.impulse = contacts_[i].impulse;
+        frame.impulse = toVec3(contacts_[i].impulse);
         if (frame.rolling == ContactFrame::rolls_freely) continue;
         RollingContact& rolling = local.rolling[frame.rolling];
         rolling.impulse_W = frame.basis * rolling_[frame.rolling].impulse;

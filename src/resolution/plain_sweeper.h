@@ -26,7 +26,7 @@ class PlainSweeper final : public Sweeper {
     /// In the batch's order.
     std::span<const SweptContact> contacts() const { return contacts_; }
     /// Replaces an accumulated impulse, with what it does to the velocities. @param impulse [N·s, W]
-    void setImpulse(std::size_t contact, const Vec3& impulse, LocalBatch& local);
+    void setImpulse(std::size_t contact, const Triple1& impulse, LocalBatch& local);
 
   private:
     /// The angular impulse of a contact that resists rolling; contact coordinates.
@@ -37,17 +37,19 @@ class PlainSweeper final : public Sweeper {
     };
 
     void beginContact(std::size_t i, const SweptBatch& swept);
-    void visit(SweptContact& contact, LocalBatch& local);
+    template <class Visit>
+    void visitPair(std::size_t pair, LocalBatch& local, const Visit& visit);
     void visitFramed(std::size_t i, LocalBatch& local);
     void visitRolling(SweptContact& contact, const ContactFrame& frame, LocalBatch& local);
     void addRollingChange(const LocalBatch& local, SweepChange& change) const;
     void settleFrames(const SweptBatch& swept);
 
-    bool framed_ = false;                 ///< the batch has frames of the contacts
-    std::vector<SweptContact> contacts_;  ///< in the batch's order
-    std::vector<Rolling> rolling_;        ///< as LocalBatch::rolling
-    std::vector<Vec3> before_;            ///< [contacts] impulses at the beginning of the sweep [N·s]
-    std::vector<Vec3> direction_;         ///< [contacts] [N·s]
+    bool framed_ = false;                  ///< the batch has frames of the contacts
+    std::vector<SweptContact> contacts_;   ///< in the batch's order
+    std::vector<std::size_t> pair_begin_;  ///< [pairs + 1] contacts next to each other that have the same bodies
+    std::vector<Rolling> rolling_;         ///< as LocalBatch::rolling
+    std::vector<Triple1> before_;          ///< [contacts] impulses at the beginning of the sweep [N·s]
+    std::vector<Triple1> direction_;       ///< [contacts] [N·s]
 };
 
 }  // namespace cairn

@@ -11,12 +11,12 @@
 namespace cairn {
 
 /// All that a sweep reads and writes of a contact, in world coordinates, side by side.
-/// @tparam NumberType of one contact a plain number @tparam VectorType three of them
-template <class NumberType, class VectorType>
-struct alignas(VectorType) BasicSweptContact {
+/// @tparam NumberType of one contact a plain number, of four Lanes
+template <class NumberType>
+struct alignas(sizeof(NumberType)) BasicSweptContact {
     using Number = NumberType;
-    using Vector = VectorType;
-    using Symmetric = BasicSymmetric3<Number, Vector>;
+    using Vector = Triple<Number>;
+    using Symmetric = BasicSymmetric3<Number>;
 
     Vector impulse;            ///< accumulated, on A [N·s]; always in the friction cone after a visit
     Vector normal;             ///< from B to A
@@ -31,19 +31,37 @@ struct alignas(VectorType) BasicSweptContact {
 };
 
 /// One contact: four cache lines, of which a contact that sticks needs three.
-struct alignas(64) SweptContact : ContactEnds, BasicSweptContact<double, Vec3> {};
+struct alignas(64) SweptContact : ContactEnds, BasicSweptContact<double> {};
 
 /// Four contacts.
-using WideContact = BasicSweptContact<Lanes, Lanes3>;
+using WideContact = BasicSweptContact<Lanes>;
+
+/// What a visit reads and writes of a body, or of the four of four contacts.
+template <class Number>
+struct SweptBody {
+    Triple<Number> v;  ///< [m/s, W]
+    Triple<Number> w;  ///< [rad/s, W]
+    Number mass_inv{};
+    BasicSymmetric3<Number> inertia_inv;
+};
 
 /// Rounds of slidingSteps() in every visit of a sliding contact. The sweeps converge with any number; a few save
 /// sweeps.
 constexpr int sliding_rounds = 2;
 
+inline SweptBody<double> read(const LocalBody& body) {
+    return {Triple1(body.v), Triple1(body.w), body.mass_inv, body.inertia_inv};
+}
+inline void write(const SweptBody<double>& swept, LocalBody& body) {
+    body.v = toVec3(swept.v);
+    body.w = toVec3(swept.w);
+}
+
 /// Adds one body's part −R·I⁻¹·R + m⁻¹·1 of K. @source thesis (3.4.11a)
-template <class Number, class Vector>
-[[gnu::always_inline]] inline void addCollisionMatrix(const Number& mass_inv, const BasicSymmetric3<Number, Vector>& i,
-                                                      const Vector& r, BasicSymmetric3<Number, Vector>& k) {
+template <class Number>
+[[gnu::always_inline]] inline void addCollisionMatrix(const Number& mass_inv, const BasicSymmetric3<Number>& i,
+                                                      const Triple<Number>& r, BasicSymmetric3<Number>& k) {
+    using Vector = Triple<Number>;
     // Rows of [r]×·I⁻¹, then the columns that are needed of its product with [r]×ᵀ.
     const Vector x(r.y() * i.xz - r.z() * i.xy, r.y() * i.yz - r.z() * i.yy, r.y() * i.zz - r.z() * i.yz);
     const Vector y(r.z() * i.xx - r.x() * i.xz, r.z() * i.xy - r.x() * i.yz, r.z() * i.xz - r.x() * i.zz);
@@ -83,7 +101,7 @@ template <class Contact>
 /// Where K cannot be inverted (masses beyond what doubles can divide) the contact keeps its normal part only, and where
 /// not even that exists it cannot be resolved. @pre setInvertible(contact, …)
 inline void mendSingular(SweptContact& contact) {
-    const Vec3& n = contact.normal;
+    const Vec3 n = toVec3(contact.normal);
     if (isFinite(contact.k_inv) && n.dot(contact.k_inv * n) > 0 && std::isfinite(contact.tangential_mass)) return;
     const double k_nn = 1 / contact.normal_mass;
     const bool usable = std::isfinite(contact.normal_mass) && contact.normal_mass > 0;
@@ -98,16 +116,18 @@ inline bool isResolvable(const SweptContact& contact) {
 }
 
 /// ϑA − ϑB [m/s, W]. @source thesis (3.4.1), (3.4.2)
-template <class Contact, class Body>
-[[gnu::always_inline]] inline typename Contact::Vector relativeVelocity(const Contact& contact, const Body& a,
-                                                                        const Body& b) {
+template <class Contact>
+[[gnu::always_inline]] inline typename Contact::Vector relativeVelocity(const Contact& contact,
+                                                                        const SweptBody<typename Contact::Number>& a,
+                                                                        const SweptBody<typename Contact::Number>& b) {
     return (a.v + a.w.cross(contact.r_a)) - (b.v + b.w.cross(contact.r_b));
 }
 
 /// @param impulse on A [N·s]
-template <class Contact, class Body>
-[[gnu::always_inline]] inline void push(const Contact& contact, const typename Contact::Vector& impulse, Body& a,
-                                        Body& b) {
+template <class Contact>
+[[gnu::always_inline]] inline void push(const Contact& contact, const typename Contact::Vector& impulse,
+                                        SweptBody<typename Contact::Number>& a,
+                                        SweptBody<typename Contact::Number>& b) {
     a.v += a.mass_inv * impulse;
     a.w += a.inertia_inv * contact.r_a.cross(impulse);
     b.v -= b.mass_inv * impulse;
@@ -119,7 +139,7 @@ inline bool slides(const SweptContact& contact, const LocalBody& a, const LocalB
     if (!(contact.normal.dot(contact.impulse) > 0)) return false;
     // What is slower than this only has not converged yet.
     const double sliding = 10 * threshold;
-    const Vec3 velocity = relativeVelocity(contact, a, b);
+    const Triple1 velocity = relativeVelocity(contact, read(a), read(b));
     return (velocity - contact.normal.dot(velocity) * contact.normal).squaredNorm() > sliding * sliding;
 }
 

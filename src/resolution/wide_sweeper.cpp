@@ -25,12 +25,7 @@ constexpr std::size_t wide_grain = loop_grain / lane_count;
 constexpr std::size_t sum_block = 64;
 
 /// Four bodies.
-struct WideBody {
-    Lanes3 v;
-    Lanes3 w;
-    Lanes mass_inv{};
-    BasicSymmetric3<Lanes, Lanes3> inertia_inv;
-};
+using WideBody = SweptBody<Lanes>;
 
 using BodyIndices = std::array<std::uint32_t, lane_count>;
 
@@ -64,8 +59,8 @@ using BodyIndices = std::array<std::uint32_t, lane_count>;
                                          std::vector<LocalBody>& bodies) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
         if ((moves[lane] & bit) == 0) continue;
-        bodies[i[lane]].v = body.v.lane(lane);
-        bodies[i[lane]].w = body.w.lane(lane);
+        bodies[i[lane]].v = laneOf(body.v, lane);
+        bodies[i[lane]].w = laneOf(body.w, lane);
     }
 }
 
@@ -87,7 +82,10 @@ using BodyIndices = std::array<std::uint32_t, lane_count>;
     return holdsInAll((sum - sum == 0) & (normal_part > 0));
 }
 
-void setLane(BasicSymmetric3<Lanes, Lanes3>& m, std::size_t lane, const Symmetric3& value) {
+using cairn::laneOf;
+using cairn::setLane;
+
+void setLane(BasicSymmetric3<Lanes>& m, std::size_t lane, const Symmetric3& value) {
     m.xx[lane] = value.xx;
     m.xy[lane] = value.xy;
     m.xz[lane] = value.xz;
@@ -96,16 +94,16 @@ void setLane(BasicSymmetric3<Lanes, Lanes3>& m, std::size_t lane, const Symmetri
     m.zz[lane] = value.zz;
 }
 
-Symmetric3 laneOf(const BasicSymmetric3<Lanes, Lanes3>& m, std::size_t lane) {
+Symmetric3 laneOf(const BasicSymmetric3<Lanes>& m, std::size_t lane) {
     return {m.xx[lane], m.xy[lane], m.xz[lane], m.yy[lane], m.yz[lane], m.zz[lane]};
 }
 
 SweptContact laneOf(const WideContact& wide, std::size_t lane) {
     SweptContact contact;
-    contact.impulse = wide.impulse.lane(lane);
-    contact.normal = wide.normal.lane(lane);
-    contact.r_a = wide.r_a.lane(lane);
-    contact.r_b = wide.r_b.lane(lane);
+    contact.impulse = Triple1(laneOf(wide.impulse, lane));
+    contact.normal = Triple1(laneOf(wide.normal, lane));
+    contact.r_a = Triple1(laneOf(wide.r_a, lane));
+    contact.r_b = Triple1(laneOf(wide.r_b, lane));
     contact.k_inv = laneOf(wide.k_inv, lane);
     contact.target = wide.target[lane];
     contact.friction = wide.friction[lane];
@@ -216,10 +214,10 @@ void WideSweeper::addGroup(std::span<const Pair> pairs, const LocalBatch& local)
             // An empty lane repeats the group's first contact, which can be computed with.
             const std::uint32_t source = index == none ? contact_of_[group.begin * lane_count] : index;
             const Contact& contact = swept.contacts[swept.batch.contacts[source]];
-            wide.normal.setLane(lane, contact.normal);
-            wide.r_a.setLane(lane, contact.point - swept.bodies.position[contact.a]);
-            wide.r_b.setLane(lane, contact.point - swept.bodies.position[contact.b]);
-            wide.impulse.setLane(lane, index == none ? Vec3(Vec3::Zero()) : contact.last_impulse);
+            setLane(wide.normal, lane, contact.normal);
+            setLane(wide.r_a, lane, contact.point - swept.bodies.position[contact.a]);
+            setLane(wide.r_b, lane, contact.point - swept.bodies.position[contact.b]);
+            setLane(wide.impulse, lane, index == none ? Vec3(Vec3::Zero()) : contact.last_impulse);
             wide.friction[lane] = contact.static_friction;
         }
         WideContact::Symmetric k;
@@ -367,7 +365,7 @@ bool WideSweeper::releaseSliding(const SweptBatch& swept) {
 void WideSweeper::finish(const SweptBatch& swept) {
     forEach(slot_of_.size(), swept.executor, [&](std::size_t i) {
         const WideContact& wide = contacts_[slot_of_[i] / lane_count];
-        swept.contacts[swept.batch.contacts[i]].impulse += wide.impulse.lane(slot_of_[i] % lane_count);
+        swept.contacts[swept.batch.contacts[i]].impulse += laneOf(wide.impulse, slot_of_[i] % lane_count);
     });
 }
 
