@@ -45,6 +45,7 @@ BodyIndex BodyStorage::allocate(BodyKind new_kind) {
         constant_force.resize(n);
         constant_torque.resize(n);
         asleep.resize(n);
+        resting.resize(n);
         woken.resize(n);
         motion.resize(n);
         supports.resize(n);
@@ -62,6 +63,7 @@ BodyIndex BodyStorage::allocate(BodyKind new_kind) {
     inertiaInv_W[i] = Mat3::Zero();
     mass[i] = mass_inv[i] = r_max[i] = motion[i] = 0;
     asleep[i] = 0;
+    resting[i] = 0;
     woken[i] = WakeReason::none;
     supports[i] = -1;
     ++count_;
@@ -74,6 +76,7 @@ void BodyStorage::release(BodyIndex i) {
     name[i].clear();
     mass_inv[i] = 0;
     asleep[i] = 0;
+    resting[i] = 0;
     holes_.push_back(i);
     std::push_heap(holes_.begin(), holes_.end(), std::greater<>());
     --count_;
@@ -109,6 +112,7 @@ BodyState BodyStorage::state() {
             .inertiaInv_W = inertiaInv_W,
             .linear_step = linear_step,
             .asleep = asleep,
+            .resting = resting,
             .woken = woken,
             .shock_stage = {}};
 }

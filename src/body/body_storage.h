@@ -29,6 +29,7 @@ struct BodyState {
     std::span<const Mat3> inertiaInv_W;  ///< [1/(kg·m²), W]; 0 for fixed bodies
     std::span<const Vec3> linear_step;   ///< ℓ: displacement by the linear velocity in this time step [m, W]
     std::span<std::uint8_t> asleep;      ///< 1 = asleep
+    std::span<std::uint8_t> resting;     ///< 1 = awake, but nothing has changed since it came to rest
     std::span<WakeReason> woken;         ///< why it woke in this step
 
     /// What gravity gives a body at rest in this time step [m/s, W].
@@ -38,8 +39,9 @@ struct BodyState {
 
     std::size_t size() const { return kind.size(); }
     bool isFixed(BodyIndex i) const { return kind[i] != BodyKind::dynamic; }
-    /// Wakes a sleeping body, keeping the first reason of the step.
+    /// Ends a body's rest and wakes it if it sleeps, keeping the first reason of the step.
     void wake(BodyIndex i, WakeReason reason) const {
+        resting[i] = 0;
         if (asleep[i] == 0) return;
         asleep[i] = 0;
         woken[i] = reason;
@@ -71,6 +73,7 @@ class BodyStorage {
     std::vector<Vec3> force, torque;  ///< for the next step [N], [N·m, W]
     std::vector<Vec3> constant_force, constant_torque;  ///< in every step [N], [N·m, W]
     std::vector<std::uint8_t> asleep;                   ///< 1 = asleep
+    std::vector<std::uint8_t> resting;                  ///< 1 = awake, but nothing changed since it came to rest
     std::vector<WakeReason> woken;                      ///< why it woke in this step
     std::vector<double> motion;          ///< rwa: recency-weighted average of the squared motion [m²/s²] (3.2.4)
     std::vector<std::int32_t> supports;  ///< contacts in the direction of gravity in the last step; −1 = unknown

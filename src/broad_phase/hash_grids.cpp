@@ -254,12 +254,13 @@ void HashGrids::searchCoarser(const Block& block, PairBuffer& found) const {
 
 void HashGrids::searchCoarserBlock(const Block& block, const Bounds& around, const Block& coarse,
                                    std::uint64_t positions, PairBuffer& found) const {
+    if (block.moved == 0 && coarse.moved == 0) return;
     const auto cells = cellsOf(block);
     const Range all = {cells.front().begin, cells.back().end};
     forEachPosition(coarse.occupied & positions, [&](unsigned position) {
         const Cell& other = cells_[coarse.cell(position)];
         for (std::uint32_t i = other.begin; i < other.end; ++i) {
-            if (overlap(entries_[i].bounds, around) == 0) continue;
+            if (overlap(entries_[i].bounds, around) == 0 || (block.moved | entries_[i].moved) == 0) continue;
             if (i < other.fixed_begin) {
                 testRow(entries_[i], all, found);
                 continue;

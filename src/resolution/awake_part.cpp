@@ -17,6 +17,16 @@ struct Disturbance {
     bool seen = false;
 };
 
+/// What a batch that is resolved in part does with a body.
+enum class Part : std::uint8_t {
+    free,  ///< resolves it
+    held,  ///< holds it still
+    freed  ///< held it, until it was disturbed
+};
+
+/// Resting bodies are disturbed by what would give them this multiple of rest_speed.
+constexpr double rest_multiple = 25;
+
 class AwakePart final : public Resolution {
   public:
     AwakePart(std::unique_ptr<Resolution> resolution, Sleepers sleepers)
@@ -24,12 +34,12 @@ class AwakePart final : public Resolution {
 
     ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
                              const ResolutionSettings& settings, const Executor& executor) override {
-        const auto sleepers = static_cast<std::size_t>(
-            std::ranges::count_if(batch.bodies, [&](BodyIndex i) { return sleeps(bodies, i); }));
-        const bool all = sleepers == batch.bodies.size();
-        const bool some = sleepers > 0 && sleepers_ == Sleepers::remain && settings.wake_speed > 0;
+        const auto [sleeping, resting] = count(batch, bodies);
+        const bool all = sleeping + resting == batch.bodies.size();
+        const bool some = sleepers_ == Sleepers::remain && (resting > 0 || (sleeping > 0 && settings.wake_speed > 0));
         if ((all || some) && batch.joints.empty() && hasStillSupports(batch, contacts, bodies)) {
             if (!all) return resolvePart(batch, contacts, bodies, settings, executor);
+            for (const BodyIndex i : batch.bodies) hold(bodies, i);
             forEachContact(batch, contacts, executor, [](Contact& c) { c.impulse += c.last_impulse; });
             return {};
         }
@@ -45,6 +55,22 @@ class AwakePart final : public Resolution {
   private:
     static bool sleeps(const BodyState& bodies, BodyIndex i) { return bodies.asleep[i] != 0 && isAtRest(bodies, i); }
 
+    static std::pair<std::size_t, std::size_t> count(const BatchView& batch, const BodyState& bodies) {
+        std::size_t sleeping = 0;
+        std::size_t resting = 0;
+        for (const BodyIndex i : batch.bodies) {
+            sleeping += sleeps(bodies, i) ? 1 : 0;
+            resting += bodies.resting[i];
+        }
+        return {sleeping, resting};
+    }
+
+    /// Takes away what gravity gave to a body that rests.
+    static void hold(const BodyState& bodies, BodyIndex i) {
+        bodies.v[i].setZero();
+        bodies.w[i].setZero();
+    }
+
     template <class Work>
     static void forEachContact(const BatchView& batch, std::span<Contact> contacts, const Executor& executor,
                                const Work& work) {
@@ -55,57 +81,56 @@ class AwakePart final : public Resolution {
 
     ResolutionCounts resolvePart(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
                                  const ResolutionSettings& settings, const Executor& executor) {
-        if (held_.size() < bodies.size()) {
-            held_.resize(bodies.size(), 0);
+        if (part_.size() < bodies.size()) {
+            part_.resize(bodies.size(), Part::free);
             disturbances_.resize(bodies.size());
         }
-        std::size_t held = 0;
         for (const BodyIndex i : batch.bodies) {
-            held_[i] = sleeps(bodies, i) ? 1 : 0;
-            held += held_[i];
+            if (bodies.resting[i] == 0 && !(sleeps(bodies, i) && settings.wake_speed > 0)) continue;
+            part_[i] = Part::held;
+            hold(bodies, i);
         }
-        if (!isWorthwhile(held, batch)) wakeAll(batch, bodies);
+        freeAllUnlessWorthwhile(batch, bodies);
         ResolutionCounts counts;
         for (int reach = 1;; reach *= 4) {
             select(batch, contacts, bodies);
             const BatchView part{part_bodies_, part_contacts_, {}};
             const ResolutionCounts round = resolution_->resolve(part, contacts, bodies, settings, executor);
             counts.global_iterations += round.global_iterations;
-            findDisturbed(contacts, bodies, settings.wake_speed);
+            findDisturbed(contacts, bodies, settings);
             if (disturbed_.empty()) break;
             goBack(contacts, bodies);
             wakeAround(batch, contacts, bodies, reach);
-            const auto still_held = std::ranges::count_if(batch.bodies, [&](BodyIndex i) { return held_[i] != 0; });
-            if (!isWorthwhile(static_cast<std::size_t>(still_held), batch)) wakeAll(batch, bodies);
+            freeAllUnlessWorthwhile(batch, bodies);
         }
         forEachContact(batch, contacts, executor, [&](Contact& contact) {
             const bool a = isFree(bodies, contact.a);
             const bool b = isFree(bodies, contact.b);
             if (!a && !b) contact.impulse += contact.last_impulse;
-            if ((a || isNotHeld(contact.a)) && (b || isNotHeld(contact.b))) contact.reference_impulse = contact.impulse;
+            if (!isHeld(contact.a) && !isHeld(contact.b)) contact.reference_impulse = contact.impulse;
         });
-        for (const BodyIndex i : batch.bodies) held_[i] = 0;
+        for (const BodyIndex i : batch.bodies) part_[i] = Part::free;
         return counts;
     }
 
-    /// A resolution of most of a batch saves less than it may waste.
-    static bool isWorthwhile(std::size_t held, const BatchView& batch) { return 2 * held > batch.bodies.size(); }
-
-    void wakeAll(const BatchView& batch, const BodyState& bodies) {
+    /// Unless most of a batch is held, resolving a part saves less than it may waste.
+    void freeAllUnlessWorthwhile(const BatchView& batch, const BodyState& bodies) {
+        const auto held = std::ranges::count_if(batch.bodies, [&](BodyIndex i) { return isHeld(i); });
+        if (4 * static_cast<std::size_t>(held) > 3 * batch.bodies.size()) return;
         for (const BodyIndex i : batch.bodies) {
-            if (held_[i] != 0) free(bodies, i);
+            if (isHeld(i)) free(bodies, i);
         }
     }
 
-    bool isNotHeld(BodyIndex i) const { return held_[i] == 0; }
-    bool isFree(const BodyState& bodies, BodyIndex i) const { return held_[i] == 0 && !bodies.isFixed(i); }
+    bool isHeld(BodyIndex i) const { return part_[i] == Part::held; }
+    bool isFree(const BodyState& bodies, BodyIndex i) const { return !isHeld(i) && !bodies.isFixed(i); }
 
     /// Finds the bodies that are not held with their contacts, and notes their velocities.
     void select(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
         part_bodies_.clear();
         part_contacts_.clear();
         for (const BodyIndex i : batch.bodies) {
-            if (held_[i] == 0) part_bodies_.push_back(i);
+            if (!isHeld(i)) part_bodies_.push_back(i);
         }
         noteMotion(part_bodies_, bodies, before_);
         for (const std::uint32_t i : batch.contacts) {
@@ -113,14 +138,14 @@ class AwakePart final : public Resolution {
         }
     }
 
-    void findDisturbed(std::span<const Contact> contacts, const BodyState& bodies, double wake_speed) {
+    void findDisturbed(std::span<const Contact> contacts, const BodyState& bodies, const ResolutionSettings& settings) {
         disturbed_.clear();
         seen_.clear();
         for (const std::uint32_t i : part_contacts_) {
             const Contact& contact = contacts[i];
             const Vec3 difference = contact.impulse - contact.reference_impulse;
-            if (held_[contact.a] != 0) disturb(contact.a, difference, contact.point - bodies.position[contact.a]);
-            if (held_[contact.b] != 0) disturb(contact.b, -difference, contact.point - bodies.position[contact.b]);
+            if (isHeld(contact.a)) disturb(contact.a, difference, contact.point - bodies.position[contact.a]);
+            if (isHeld(contact.b)) disturb(contact.b, -difference, contact.point - bodies.position[contact.b]);
         }
         for (const BodyIndex i : seen_) {
             Disturbance& d = disturbances_[i];
@@ -128,7 +153,8 @@ class AwakePart final : public Resolution {
             const Vec3 w = bodies.inertiaInv_W[i] * d.angular;
             // As the motion that falling asleep is about; what is not a number disturbs, too.
             const double motion = 2 * (v.squaredNorm() + w.squaredNorm() * d.squared_reach);
-            if (!(motion <= wake_speed * wake_speed)) disturbed_.push_back(i);
+            const double limit = bodies.resting[i] != 0 ? rest_multiple * settings.rest_speed : settings.wake_speed;
+            if (!(motion <= limit * limit)) disturbed_.push_back(i);
             d = {};
         }
     }
@@ -161,27 +187,22 @@ class AwakePart final : public Resolution {
             disturbed_.clear();
             for (const std::uint32_t i : batch.contacts) {
                 const auto [a, b] = std::pair(contacts[i].a, contacts[i].b);
-                if (held_[a] != 0 && isWokenHere(bodies, b)) disturbed_.push_back(a);
-                if (held_[b] != 0 && isWokenHere(bodies, a)) disturbed_.push_back(b);
+                if (isHeld(a) && part_[b] == Part::freed) disturbed_.push_back(a);
+                if (isHeld(b) && part_[a] == Part::freed) disturbed_.push_back(b);
             }
             for (const BodyIndex i : disturbed_) free(bodies, i);
         }
     }
 
-    /// Whether the resolution woke it, in this step.
-    bool isWokenHere(const BodyState& bodies, BodyIndex i) const {
-        return isFree(bodies, i) && bodies.woken[i] == WakeReason::struck;
-    }
-
     void free(const BodyState& bodies, BodyIndex i) {
-        held_[i] = 0;
+        part_[i] = Part::freed;
         bodies.wake(i, WakeReason::struck);
         bodies.v[i] = bodies.fall;
     }
 
     std::unique_ptr<Resolution> resolution_;
     Sleepers sleepers_;
-    std::vector<std::uint8_t> held_;            ///< [slots] 1 = sleeps and is held still; 0 outside of resolve()
+    std::vector<Part> part_;                    ///< [slots] free outside of resolve()
     std::vector<Disturbance> disturbances_;     ///< [slots] none outside of findDisturbed()
     std::vector<BodyIndex> part_bodies_;        ///< ascending
     std::vector<std::uint32_t> part_contacts_;  ///< ascending

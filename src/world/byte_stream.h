@@ -121,6 +121,6 @@ void sealFrame(std::span<std::byte> frame, FrameKind kind, std::uint32_t version
 std::size_t frameHeadSize();
 
 /// The version of the format that is written.
-inline constexpr std::uint32_t snapshot_version = 5;
+inline constexpr std::uint32_t snapshot_version = 6;
 
 }  // namespace cairn

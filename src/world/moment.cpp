@@ -7,14 +7,14 @@ namespace cairn {
 namespace {
 
 // A new array of the bodies belongs into one of the two lists below; linear_step, which every step computes anew, is in
-// neither. 26 arrays and the holes are vectors.
-static_assert(sizeof(BodyStorage) == 27 * sizeof(std::vector<Vec3>) + sizeof(std::size_t));
+// neither. 27 arrays and the holes are vectors.
+static_assert(sizeof(BodyStorage) == 28 * sizeof(std::vector<Vec3>) + sizeof(std::size_t));
 
 /// Arrays that steps change, of the bodies or of a moment.
 template <class Part>
 auto movingArrays(Part& p) {
-    return std::tie(p.position, p.orientation, p.v, p.w, p.inertiaInv_W, p.force, p.torque, p.asleep, p.woken, p.motion,
-                    p.supports);
+    return std::tie(p.position, p.orientation, p.v, p.w, p.inertiaInv_W, p.force, p.torque, p.asleep, p.resting,
+                    p.woken, p.motion, p.supports);
 }
 
 /// Arrays that steps never change, of the bodies or of a lasting part.

@@ -35,6 +35,7 @@ struct MomentState {
     std::vector<Quat> orientation;
     std::vector<Mat3> inertiaInv_W;
     std::vector<std::uint8_t> asleep;
+    std::vector<std::uint8_t> resting;
     std::vector<WakeReason> woken;
     std::vector<double> motion;
     std::vector<std::int32_t> supports;

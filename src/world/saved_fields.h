@@ -97,6 +97,17 @@ void shapeFrames(ByteReader& in, Bodies& bodies, std::size_t slots) {
     slotArray(in, bodies.R_BS, slots);
 }
 
+/// Since version 6; before it no body rested.
+template <class Bodies>
+void resting(ByteWriter& out, const Bodies& bodies, std::size_t slots) {
+    slotArray(out, bodies.resting, slots);
+}
+template <class Bodies>
+void resting(ByteReader& in, Bodies& bodies, std::size_t slots) {
+    bodies.resting.assign(slots, 0);
+    if (in.version() >= 6) slotArray(in, bodies.resting, slots);
+}
+
 /// Left out: shape and name, which are no plain numbers, and linear_step, which every step computes anew.
 template <class Stream, class Bodies>
 void bodyArrays(Stream& stream, Bodies& bodies, std::size_t slots) {
@@ -122,6 +133,7 @@ void bodyArrays(Stream& stream, Bodies& bodies, std::size_t slots) {
     slotArray(stream, bodies.motion, slots);
     slotArray(stream, bodies.supports, slots);
     shapeFrames(stream, bodies, slots);
+    resting(stream, bodies, slots);
 }
 
 template <class Stream, class AnySpring>

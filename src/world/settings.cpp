@@ -148,6 +148,9 @@ const std::vector<SettingField>& fields() {
         plain<&S::resolution, &R::wake_speed>(
             "wake_speed", "resolution", "m/s", 0, 1e3,
             "'accelerated_sweeps' lets bodies sleep until their contacts' push changes by so much; 0 = not"),
+        plain<&S::resolution, &R::rest_speed>(
+            "rest_speed", "resolution", "m/s", 0, 1e3,
+            "'accelerated_sweeps' holds supported bodies still that stay slower; 0 = not"),
         plain<&S::resolution, &R::sweeps>("sweeps", "resolution", "", 1, 1e6,
                                           "sweeps over the contacts of the resolution 'sweep'"),
         plain<&S::sleep, &L::sleeping>("sleeping", "sleep", "", 0, 1, "bodies at rest fall asleep"),
@@ -288,6 +291,7 @@ Settings Settings::preset(Preset preset, double steps_per_second, double gravity
         s.resolution.sweep_tolerance = 1e-8 * scale;
         s.resolution.direct_limit = 1000;
         s.resolution.wake_speed = 0.52e-3 * scale;
+        s.resolution.rest_speed = 0;
         s.sleep.sleep_threshold = 0.52e-3 * scale;
         s.gravity_damping.damping = 0;
         s.gravity_damping.damping_threshold = 0;
@@ -296,6 +300,7 @@ Settings Settings::preset(Preset preset, double steps_per_second, double gravity
         s.resolution.restitution_threshold *= scale;
         s.resolution.sweep_tolerance *= scale;
         s.resolution.wake_speed *= scale;
+        s.resolution.rest_speed *= scale;
         s.sleep.sleep_threshold *= scale;
         s.gravity_damping.damping_threshold *= scale;
     }

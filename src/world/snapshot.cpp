@@ -51,6 +51,7 @@ Settings settingsOfTheFirstVersion() {
     settings.resolution.visit_limit = 0;
     settings.resolution.direct_limit = 0;
     settings.resolution.wake_speed = 0;
+    settings.resolution.rest_speed = 0;
     return settings;
 }
 
@@ -161,7 +162,8 @@ void loadBodies(ByteReader& in, std::size_t materials, BodyStorage& b) {
     bodyArrays(in, b, slots);
     if (std::ranges::any_of(b.kind, [](BodyKind kind) { return kind > BodyKind::dynamic; }) ||
         std::ranges::any_of(b.woken, [](WakeReason reason) { return reason > WakeReason::floating; }) ||
-        std::ranges::any_of(b.asleep, [](std::uint8_t asleep) { return asleep > 1; })) {
+        std::ranges::any_of(b.asleep, [](std::uint8_t asleep) { return asleep > 1; }) ||
+        std::ranges::any_of(b.resting, [](std::uint8_t resting) { return resting > 1; })) {
         in.refuse("an unknown state of a body");
     }
     b.shape.resize(slots);
