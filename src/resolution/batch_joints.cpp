@@ -277,4 +277,22 @@ void BatchJoints::scatter() const {
     for (std::size_t i = 0; i < count_; ++i) groups_[i].report();
 }
 
+void BatchJoints::note(std::vector<double>& noted) const {
+    noted.clear();
+    for (std::size_t i = 0; i < count_; ++i) {
+        const std::span<const double> received = groups_[i].received();
+        noted.insert(noted.end(), received.begin(), received.end());
+    }
+}
+
+void BatchJoints::keepPartSince(std::span<const double> noted, double part) {
+    std::size_t row = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        for (double& impulse : groups_[i].received()) {
+            impulse = noted[row] + part * (impulse - noted[row]);
+            ++row;
+        }
+    }
+}
+
 }  // namespace cairn

@@ -30,6 +30,8 @@ class BatchJointGroup {
     void settle(std::span<Twist> direct);
     /// Writes the sum of the joints' impulses into their blocks.
     void report() const;
+    std::span<double> received() { return received_; }              ///< [rows] sum of the impulses
+    std::span<const double> received() const { return received_; }  ///< likewise
 
     JointSystem system;
     std::vector<std::uint32_t> local;  ///< [members] index of their LocalBody
@@ -82,6 +84,10 @@ class BatchJoints {
                 std::span<const LocalBody> bodies);
     /// Writes the impulses into the blocks.
     void scatter() const;
+    /// The impulses that the rows received so far. @param noted out; keeps its memory
+    void note(std::vector<double>& noted) const;
+    /// Takes those received since back to a part.
+    void keepPartSince(std::span<const double> noted, double part);
 
   private:
     static constexpr std::uint32_t none = UINT32_MAX;

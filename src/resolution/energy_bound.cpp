@@ -3,25 +3,11 @@
 #include <algorithm>
 #include <vector>
 
-#include "resolution/batch_motion.h"
-#include "resolution/symmetric3.h"
+#include "resolution/energy_gain.h"
 
 namespace cairn {
 
 namespace {
-
-/// Part of the energy that rounding may add.
-constexpr double rounding = 1e-12;
-
-/// What part s of a change of velocities adds to the kinetic energy: s·linear + s²·quadratic [J].
-struct Gain {
-    double linear = 0;
-    double quadratic = 0;
-
-    double whole() const { return linear + quadratic; }
-    /// The part above 0 that adds nothing, or 0.
-    double neutralPart() const { return std::max(-linear / quadratic, 0.0); }
-};
 
 class EnergyBound final : public Resolution {
   public:
@@ -34,7 +20,7 @@ class EnergyBound final : public Resolution {
         }
         noteMotion(batch.bodies, bodies, before_);
         ResolutionCounts counts = resolution_->resolve(batch, contacts, bodies, settings, executor);
-        Gain gain = gainOf(batch, bodies);
+        EnergyGain gain = gainOf(batch, bodies);
         if (!isAboveRounding(gain, batch, bodies)) return counts;
         if (hasHistory(batch, contacts)) {
             keepPart(0, batch, contacts, bodies);
@@ -44,7 +30,7 @@ class EnergyBound final : public Resolution {
             gain = gainOf(batch, bodies);
             if (!isAboveRounding(gain, batch, bodies)) return counts;
         }
-        keepPart(gain.neutralPart(), batch, contacts, bodies);
+        keepPart(gain.largestPart(0), batch, contacts, bodies);
         return counts;
     }
 
@@ -61,31 +47,22 @@ class EnergyBound final : public Resolution {
                                    [&](std::uint32_t i) { return !contacts[i].last_impulse.isZero(0); });
     }
 
-    Gain gainOf(const BatchView& batch, const BodyState& bodies) const {
-        Gain gain;
+    EnergyGain gainOf(const BatchView& batch, const BodyState& bodies) const {
+        EnergyGain gain;
         for (std::size_t n = 0; n < batch.bodies.size(); ++n) {
             const BodyIndex i = batch.bodies[n];
-            const BodyMotion& before = before_[n];
-            const Vec3 dv = bodies.v[i] - before.v;
-            const Vec3 dw = bodies.w[i] - before.w;
-            const double mass = 1 / bodies.mass_inv[i];
-            const Vec3 turned = inverse(Symmetric3::from(bodies.inertiaInv_W[i])) * dw;
-            gain.linear += mass * before.v.dot(dv) + before.w.dot(turned);
-            gain.quadratic += 0.5 * (mass * dv.squaredNorm() + dw.dot(turned));
+            gain.add(bodies, i, before_[n], {bodies.v[i], bodies.w[i]});
         }
         return gain;
     }
 
-    bool isAboveRounding(const Gain& gain, const BatchView& batch, const BodyState& bodies) const {
+    bool isAboveRounding(const EnergyGain& gain, const BatchView& batch, const BodyState& bodies) const {
         if (!(gain.whole() > 0)) return false;
         double energy = 0;
         for (std::size_t n = 0; n < batch.bodies.size(); ++n) {
-            const BodyIndex i = batch.bodies[n];
-            const BodyMotion& before = before_[n];
-            const Vec3 spin = inverse(Symmetric3::from(bodies.inertiaInv_W[i])) * before.w;
-            energy += 0.5 * (before.v.squaredNorm() / bodies.mass_inv[i] + before.w.dot(spin));
+            energy += kineticEnergyOf(bodies, batch.bodies[n], before_[n]);
         }
-        return gain.whole() > rounding * energy;
+        return gain.whole() > energy_rounding * energy;
     }
 
     void keepPart(double part, const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies) const {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "resolution/algorithms.h"
+#include "resolution/energy_gain.h"
 #include "resolution/shock_propagation.h"
 
 namespace cairn {
@@ -175,9 +176,11 @@ class ImpulseQueueResolution final : public Resolution {
         std::iota(all_.begin(), all_.end(), 0U);
         const RunOutcome outcome = runAll(settings, counts);
         if (outcome.still_closing && settings.shock_propagation) {
+            solver_.batch.note(before_shock_);
             const ShockOutcome shock = shock_propagation_.run(solver_, settings.shock_iterations);
             counts.shock_iterations = shock.iterations;
             counts.shock_batches = shock.stages > 0 ? 1 : 0;
+            if (shock.stages > 0 && hasStillSupports(batch, contacts, bodies)) boundEnergy(bodies);
         }
         solver_.batch.scatter(batch, contacts, bodies);
         return counts;
@@ -196,11 +199,34 @@ class ImpulseQueueResolution final : public Resolution {
         }
     }
 
+    /// A body that becomes immovable while it moves drives what comes after it like a wall: with energy that nothing
+    /// has. Where that leaves the batch more than it had before the resolution, or than the contacts' law and motors
+    /// gave it before the shock propagation, only the part of the shock propagation that does not is kept.
+    /// @param bodies with the velocities before the resolution
+    void boundEnergy(const BodyState& bodies) {
+        LocalBatch& batch = solver_.batch;
+        EnergyGain global;
+        EnergyGain shock;
+        double energy = 0;
+        for (std::size_t i = 0; i < batch.dynamic_bodies; ++i) {
+            const LocalBody& body = batch.bodies[i];
+            const BodyMotion begin{bodies.v[body.slot], bodies.w[body.slot]};
+            const BodyMotion& before = before_shock_.motion[i];
+            energy += kineticEnergyOf(bodies, body.slot, begin);
+            global.add(bodies, body.slot, begin, before);
+            shock.add(bodies, body.slot, before, {body.v, body.w});
+        }
+        const double allowed = std::max(0.0, -global.whole());
+        if (!(shock.whole() > allowed + energy_rounding * energy)) return;
+        batch.keepPartSince(before_shock_, shock.largestPart(allowed));
+    }
+
     static constexpr int most_rounds = 20;
 
     QueueSolver solver_;
     ShockPropagation shock_propagation_;
     std::vector<std::uint32_t> all_;
+    ResolvedSoFar before_shock_;
 };
 
 }  // namespace

@@ -137,4 +137,34 @@ void LocalBatch::scatter(const BatchView& batch, std::span<Contact> all_contacts
     }
 }
 
+void LocalBatch::note(ResolvedSoFar& resolved) const {
+    resolved.motion.clear();
+    for (std::size_t i = 0; i < dynamic_bodies; ++i) resolved.motion.push_back({bodies[i].v, bodies[i].w});
+    resolved.impulse.clear();
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        const bool prepared = preparation_[i] != Preparation::none;
+        resolved.impulse.push_back(prepared ? contacts[i].impulse : Vec3::Zero());
+    }
+    resolved.angular_impulse.clear();
+    for (const RollingContact& contact : rolling) resolved.angular_impulse.push_back(contact.impulse_W);
+    joints.note(resolved.joint_impulse);
+}
+
+void LocalBatch::keepPartSince(const ResolvedSoFar& resolved, double part) {
+    const auto keep = [part](const Vec3& before, Vec3& value) { value = before + part * (value - before); };
+    for (std::size_t i = 0; i < dynamic_bodies; ++i) {
+        keep(resolved.motion[i].v, bodies[i].v);
+        keep(resolved.motion[i].w, bodies[i].w);
+    }
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        if (preparation_[i] != Preparation::none) keep(resolved.impulse[i], contacts[i].impulse);
+    }
+    for (std::size_t i = 0; i < rolling.size(); ++i) {
+        // Those that were prepared later had received nothing.
+        const bool noted = i < resolved.angular_impulse.size();
+        keep(noted ? resolved.angular_impulse[i] : Vec3::Zero(), rolling[i].impulse_W);
+    }
+    joints.keepPartSince(resolved.joint_impulse, part);
+}
+
 }  // namespace cairn

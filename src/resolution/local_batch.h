@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "resolution/batch_joints.h"
+#include "resolution/batch_motion.h"
 #include "resolution/contact_colours.h"
 #include "resolution/contact_frame.h"
 #include "resolution/resolution.h"
@@ -19,6 +20,14 @@ struct NormalArms {
     Vec3 normal;  ///< from B to A [W]
     Vec3 r_a;     ///< from the centre of mass of A to the contact [m, W]
     Vec3 r_b;     ///< likewise of B
+};
+
+/// What of a batch was resolved by some time.
+struct ResolvedSoFar {
+    std::vector<BodyMotion> motion;     ///< [dynamic bodies]
+    std::vector<Vec3> impulse;          ///< [contacts] [N·s, W]
+    std::vector<Vec3> angular_impulse;  ///< [contacts that resist rolling] [N·m·s, W]
+    std::vector<double> joint_impulse;  ///< [rows of the joints]
 };
 
 /// Works on copies: masses may be changed here (shock propagation) without touching those of the world.
@@ -62,6 +71,11 @@ class LocalBatch {
     void scatter(const BatchView& batch, std::span<Contact> all_contacts, const BodyState& state) const;
     /// The same for velocities and waking alone.
     void scatterBodies(const BodyState& state) const;
+
+    /// @param resolved out; keeps its memory
+    void note(ResolvedSoFar& resolved) const;
+    /// Takes what was resolved since back to a part: velocities and impulses.
+    void keepPartSince(const ResolvedSoFar& resolved, double part);
 
     bool isFixed(std::uint32_t body) const { return body >= dynamic_bodies; }
     Vec3 velocityOf(const ContactFrame& c) const { return relativeVelocity(c, bodies[c.a], bodies[c.b]); }

@@ -140,6 +140,53 @@ TEST(ShockPropagation, LetsNothingAboveMoveWhatIsDone) {
     EXPECT_NE(pile.v[2], by_hand.v[2]);
 }
 
+/// A ball that leaves the ground meets two more above it, the last a thousand times as heavy as the others. One global
+/// iteration leaves the lower two at half its speed; frozen at it, they would drive the heavy one like a wall.
+Pile ballBelowAHeavyOne(double speed, double heavy) {
+    Pile pile;
+    BodyIndex below = pile.addFixed(Vec3(0, 0, -1));
+    for (int i = 0; i < 3; ++i) {
+        const BodyIndex ball = pile.addSphere(Vec3(0, 0, i + 0.5), i < 2 ? 1 : heavy);
+        pile.touch(below, ball, Vec3(0, 0, i), -Vec3::UnitZ());
+        below = ball;
+    }
+    pile.v[1] = Vec3(0, 0, speed);
+    return pile;
+}
+
+ResolutionSettings oneGlobalIteration() {
+    ResolutionSettings settings = fewGlobalIterations();
+    settings.global_iterations = 0.1;
+    return settings;
+}
+
+TEST(ShockPropagation, TakesNoEnergyFromWhatItFreezesInMotion) {
+    Pile pile = ballBelowAHeavyOne(10, 1000);
+    const double before = pile.energy();
+    const ResolutionCounts counts = pile.resolve(oneGlobalIteration());
+    ASSERT_EQ(counts.global_iterations, 1);
+    ASSERT_EQ(counts.shock_batches, 1);
+    EXPECT_LE(pile.energy(), before * (1 + 1e-12));
+    // What it may do it does: the heavy ball rises, the lower two keep their 5 m/s and the rest of the 50 J is its own.
+    EXPECT_NEAR(pile.v[1].z(), 5, 1e-12);
+    const double lighter = 0.5 * (pile.v[1].squaredNorm() + pile.v[2].squaredNorm());
+    EXPECT_NEAR(0.5 * 1000 * pile.v[3].squaredNorm(), 50 - lighter, 1e-9);
+    // Impulses and velocities belong together.
+    EXPECT_NEAR(-pile.contacts[2].impulse.z(), 1000 * pile.v[3].z(), 1e-9);
+}
+
+TEST(ShockPropagation, KeepsAllItDoesWhereTheEnergyAllowsIt) {
+    Pile pile = ballBelowAHeavyOne(10, 1);
+    Pile alone = pile;
+    pile.resolve(oneGlobalIteration());
+    alone.v[1] = alone.v[2] = Vec3(0, 0, 5);
+    shockAlone(alone, oneGlobalIteration());
+    for (BodyIndex i = 1; i <= 3; ++i) {
+        EXPECT_NEAR(pile.v[i].z(), 5, 1e-6);
+        EXPECT_LT((pile.v[i] - alone.v[i]).norm(), 1e-12);
+    }
+}
+
 TEST(ShockPropagation, IsSkippedWhenTheGlobalResolutionFinishes) {
     Pile pile = tower(3, 0.05);
     Pile without = pile;
