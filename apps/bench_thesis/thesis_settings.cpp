@@ -38,6 +38,7 @@ Settings thesisSettings(Preset preset, std::int64_t threads, Variant variant) {
     settings.parallel.threads = threads;
     settings.correction.correction = CorrectionKind::propagated;
     settings.correction.spread_levels = 0;
+    settings.correction.correction_rounds = 1;
     settings.resolution.resolution = ResolutionKind::impulse_queue;
     settings.resolution.order = ResolutionOrder::highest_closing_speed;
     settings.sleep.sleeping = true;

@@ -51,6 +51,10 @@ struct CorrectionSettings {
     /// threshold, each next one for twice that, so that a deep overlap in a tight pile is spread over its neighbours.
     /// 0 = none, as in the thesis; 0 to 16.
     std::int64_t spread_levels = 8;
+    /// Detections and corrections of a step, 1 to 100: where a correction displaced a body by more than the threshold,
+    /// what it pushed that into is found and corrected in the same step, so often. 1 = once, as in the thesis, and with
+    /// RestitutionSpeed::touching.
+    std::int64_t correction_rounds = 2;
 };
 
 /// Contact resolution and shock propagation. @source thesis §3.3–3.8

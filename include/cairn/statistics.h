@@ -43,7 +43,7 @@ struct Diagnostics {
     double energy_joints = 0;       ///< work of joints, motors included [J]
     double energy_correction = 0;   ///< potential energy by the penetration correction [J]
     double energy_sleep = 0;        ///< of bodies that fell asleep [J]
-    double energy_error = 0;        ///< what no account explains [J]
+    double energy_error = 0;        ///< what no account explains: rounding, and what the shock propagation takes [J]
 
     double signorini = 0;    ///< max |λₙ(cₙ − separating speed)| [J]
     double de_saxce = 0;     ///< max |λ·(c + µ‖c_t‖n)|, cₙ as above: complementarity of the cones [J]

@@ -28,13 +28,35 @@ void findStill(const BodyStorage& bodies, double margin, const Executor& executo
             place = {bodies.position[i], bodies.orientation[i], bodies.generation[i], bodies.kind[i]};
         }
     });
+    still.found = still.still;
+}
+
+/// Finds the bodies that are farther than a way [m] from their places at the last detection, and notes where they are
+/// now. @return whether there is one
+bool findDisplaced(const BodyStorage& bodies, double way, StillBodies& still) {
+    bool any = false;
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        Vec3& place = still.places[i].position;
+        const bool displaced =
+            bodies.kind[i] == BodyKind::dynamic && (place - bodies.position[i]).squaredNorm() > way * way;
+        still.found[i] = displaced ? 0 : 1;
+        if (!displaced) continue;
+        any = true;
+        still.still[i] = 0;
+        place = bodies.position[i];
+    }
+    return any;
+}
+
+bool areFound(const StillBodies& still, const BodyPair& pair) {
+    return (still.found[pair.a] & still.found[pair.b]) != 0;
 }
 
 void findBounds(const BodyStorage& bodies, double margin, const Executor& executor, StepData& data) {
     data.bounds.resize(bodies.slots());
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
-            if (bodies.kind[i] == BodyKind::hole || data.still.still[i] != 0) continue;
+            if (bodies.kind[i] == BodyKind::hole || data.still.found[i] != 0) continue;
             Bounds grown = boundsOf(bodies.shape[i], bodies.shapePose(i));
             grown.lower.array() -= margin;
             grown.upper.array() += margin;
@@ -43,13 +65,13 @@ void findBounds(const BodyStorage& bodies, double margin, const Executor& execut
     });
 }
 
-/// Pairs of bodies that did not move are those that they were.
+/// Pairs of bodies that are found already are those that they were.
 void findPairs(const BodyStorage& bodies, BroadPhase& broad_phase, const Executor& executor, StepData& data) {
-    const std::span<const std::uint8_t> still = data.still.still;
-    broad_phase.findPairs({.kind = bodies.kind, .bounds = data.bounds, .still = still}, executor, data.moved_pairs);
+    broad_phase.findPairs({.kind = bodies.kind, .bounds = data.bounds, .still = data.still.found}, executor,
+                          data.moved_pairs);
     data.still_pairs.clear();
     for (const BodyPair& pair : data.pairs) {
-        if (data.still.areStill(pair.a, pair.b)) data.still_pairs.push_back(pair);
+        if (areFound(data.still, pair)) data.still_pairs.push_back(pair);
     }
     data.pairs.resize(data.moved_pairs.size() + data.still_pairs.size());
     std::ranges::merge(data.moved_pairs, data.still_pairs, data.pairs.begin());
@@ -158,11 +180,10 @@ void joinContacts(const BodyStorage& bodies, const MaterialTable& materials, con
         1);
 }
 
-}  // namespace
-
-void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, BroadPhase& broad_phase, double margin,
-                    const Executor& executor, StepData& data) {
-    findStill(bodies, margin, executor, data.still);
+/// Finds the contacts of all pairs but those that are found already.
+void detect(const BodyStorage& bodies, const MaterialTable& materials, BroadPhase& broad_phase,
+            const Executor& executor, StepData& data) {
+    const double margin = data.still.margin;
     findBounds(bodies, margin, executor, data);
     findPairs(bodies, broad_phase, executor, data);
     data.thread_contacts.resize(static_cast<std::size_t>(executor.threads()));
@@ -177,9 +198,9 @@ void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, B
             for (std::size_t i = begin; i < end; ++i) {
                 const BodyPair& pair = data.pairs[i];
                 if (isExcluded(data.excluded, pair)) continue;
-                const bool still = data.still.areStill(pair.a, pair.b);
-                const auto last = still ? last_contacts.of(pair) : std::span<const Contact>();
-                if (last.empty() && !(still && data.still.all_tested)) {
+                const bool found = areFound(data.still, pair);
+                const auto last = found ? last_contacts.of(pair) : std::span<const Contact>();
+                if (last.empty() && !(found && data.still.all_tested)) {
                     collidePair(bodies, pair, margin, manifold, contacts);
                 }
                 for (const Contact& c : last) {
@@ -190,6 +211,21 @@ void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, B
         pair_grain);
     joinContacts(bodies, materials, executor, data);
     data.still.all_tested = data.excluded.empty();
+}
+
+}  // namespace
+
+void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, BroadPhase& broad_phase, double margin,
+                    const Executor& executor, StepData& data) {
+    findStill(bodies, margin, executor, data.still);
+    detect(bodies, materials, broad_phase, executor, data);
+}
+
+bool detectDisplaced(const BodyStorage& bodies, const MaterialTable& materials, BroadPhase& broad_phase, double way,
+                     const Executor& executor, StepData& data) {
+    if (!findDisplaced(bodies, way, data.still)) return false;
+    detect(bodies, materials, broad_phase, executor, data);
+    return true;
 }
 
 void forgetDisplaced(const BodyStorage& bodies, StillBodies& still) {

@@ -10,6 +10,11 @@ namespace cairn {
 void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, BroadPhase& broad_phase, double margin,
                     const Executor& executor, StepData& data);
 
+/// Finds anew the contacts of the bodies that the correction displaced by more than a way [m]: it may have pushed them
+/// into others that they did not touch. @pre after detectContacts() @return whether there is such a body
+bool detectDisplaced(const BodyStorage& bodies, const MaterialTable& materials, BroadPhase& broad_phase, double way,
+                     const Executor& executor, StepData& data);
+
 /// Bodies that were displaced after the detection have contacts that changed with them: they are found anew next time,
 /// wherever the bodies are then.
 void forgetDisplaced(const BodyStorage& bodies, StillBodies& still);

@@ -105,6 +105,9 @@ const std::vector<SettingField>& fields() {
         plain<&S::correction, &C::spread_levels>(
             "spread_levels", "correction", "", 0, 16,
             "attempts to spread overlaps that no candidate corrects; 0 = none, as in the thesis"),
+        plain<&S::correction, &C::correction_rounds>(
+            "correction_rounds", "correction", "", 1, 100,
+            "most detections and corrections in a step, where bodies were pushed into others; 1 as in the thesis"),
         choice<&S::resolution, &R::resolution, resolution_names>("resolution", "resolution",
                                                                  "algorithm of the contact resolution"),
         choice<&S::resolution, &R::order, order_names>("order", "resolution", "which closing contact is resolved next"),
@@ -281,6 +284,7 @@ Settings Settings::preset(Preset preset, double steps_per_second, double gravity
     if (accurate) {
         s.detection.contact_margin = 1e-5;
         s.correction.penetration_threshold = 0.1e-3;
+        s.correction.correction_rounds = 10;
         s.resolution.resolution_threshold = 5.2e-6 * scale;
         s.resolution.restitution_threshold = 11.5e-3 * scale;
         s.resolution.global_iterations = 0;

@@ -47,6 +47,7 @@ SettingValue loadSettingValue(ByteReader& in) {
 Settings settingsOfTheFirstVersion() {
     Settings settings;
     settings.correction.spread_levels = 0;
+    settings.correction.correction_rounds = 1;
     settings.resolution.moving_sweep_limit = settings.resolution.sweep_limit;
     settings.resolution.visit_limit = 0;
     settings.resolution.direct_limit = 0;

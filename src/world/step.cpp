@@ -66,17 +66,12 @@ void buildBatchesStage(WorldState& world) {
     listContacts(world.bodies.kind, data.contacts, data.contacts_of);
     data.large_batches =
         scheduleBatches(data.batches, static_cast<std::size_t>(world.settings.parallel.large_batch), data.schedule);
+    if (world.checks != Checks::off) checkBatches(world);
 }
 
-void correctStage(WorldState& world) {
+void correctBatches(WorldState& world) {
     StepData& data = world.data;
     const BodyState bodies = world.bodies.state();
-    const bool traced = world.trace.tracing == Tracing::on;
-    if (traced) world.trace.correction = world.bodies.position;
-    if (world.settings.resolution.restitution_speed == RestitutionSpeed::touching) {
-        for (Contact& contact : data.contacts) contact.gap = contact.distance;
-    }
-    data.correction_counts.assign(world.corrections.size(), {});
     forBatches(data, 0, world.executor, [&](std::uint32_t batch, int thread) {
         const auto t = static_cast<std::size_t>(thread);
         const CorrectionCounts counts = world.corrections[t]->correct(data.batches[batch], data.contacts_of,
@@ -86,6 +81,30 @@ void correctStage(WorldState& world) {
         data.correction_counts[t].uncorrected += counts.uncorrected;
         data.correction_counts[t].displaced += counts.displaced;
     });
+}
+
+void correctStage(WorldState& world) {
+    StepData& data = world.data;
+    const BodyState bodies = world.bodies.state();
+    const CorrectionSettings& settings = world.settings.correction;
+    const bool traced = world.trace.tracing == Tracing::on;
+    if (traced) world.trace.correction = world.bodies.position;
+    const bool touching = world.settings.resolution.restitution_speed == RestitutionSpeed::touching;
+    if (touching) {
+        for (Contact& contact : data.contacts) contact.gap = contact.distance;
+    }
+    data.correction_counts.assign(world.corrections.size(), {});
+    correctBatches(world);
+    // When bodies touched each other can be told from what the first detection found only.
+    const std::int64_t rounds = touching ? 1 : settings.correction_rounds;
+    for (std::int64_t round = 2; round <= rounds; ++round) {
+        if (!detectDisplaced(world.bodies, world.materials, *world.broad_phase, settings.penetration_threshold,
+                             world.executor, data)) {
+            break;
+        }
+        buildBatchesStage(world);
+        correctBatches(world);
+    }
     forgetDisplaced(world.bodies, data.still);
     if (!traced) return;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -229,7 +248,6 @@ void stepWorld(WorldState& world) {
                        world.executor, world.data);
     });
     timed(statistics, Stage::batches, [&] { buildBatchesStage(world); });
-    if (checked) checkBatches(world);
     timed(statistics, Stage::correction, [&] { correctStage(world); });
     measureIfAsked(world, Measured::correction);
     timed(statistics, Stage::velocities, [&] { velocityStage(world); });

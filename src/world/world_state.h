@@ -58,11 +58,10 @@ struct StillBodies {
         BodyKind kind = BodyKind::hole;  ///< hole = unknown
     };
     std::vector<Place> places;        ///< [slots] at the last detection
-    std::vector<std::uint8_t> still;  ///< [slots] 1 = at the same place as at the detection before
+    std::vector<std::uint8_t> still;  ///< [slots] 1 = at the same place as at the last step's detection
+    std::vector<std::uint8_t> found;  ///< [slots] 1 = contacts with others of these are known already
     double margin = 0;                ///< contact margin of the last detection [m]
     bool all_tested = false;          ///< the last detection tested every near pair: joints kept none apart
-
-    bool areStill(BodyIndex a, BodyIndex b) const { return (still[a] & still[b]) != 0; }
 };
 
 /// What the detection finds of a contact.

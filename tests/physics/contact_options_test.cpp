@@ -230,6 +230,8 @@ TEST(Diagnostics, CountDampingAndSleepOnAccountsOfTheirOwn) {
     Settings settings = Settings::preset(Preset::performance, 240, g);
     // It leaves resting bodies a little motion that sleep takes; the sweeps leave none.
     settings.resolution.resolution = ResolutionKind::impulse_queue;
+    // It holds bodies while it resolves others: what that takes is on no account.
+    settings.resolution.shock_propagation = false;
     World world = tumbling(settings);
     Statistics sum;
     double energy = world.kineticEnergy() + world.potentialEnergy();
