@@ -1,5 +1,7 @@
 #include "world/detection.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "math/arrays.h"
@@ -164,6 +166,7 @@ bool isExcluded(std::span<const BodyPair> excluded, const BodyPair& pair) {
 void joinContacts(const BodyStorage& bodies, const MaterialTable& materials, const Executor& executor, StepData& data) {
     std::size_t total = 0;
     for (const auto& found : data.thread_contacts) total += found.size();
+    requireContacts(total);
     resizeTightly(data.contacts, total);
     executor.forBlocks(
         data.thread_contacts.size(),
@@ -214,6 +217,13 @@ void detect(const BodyStorage& bodies, const MaterialTable& materials, BroadPhas
 }
 
 }  // namespace
+
+void requireContacts(std::size_t count) {
+    if (count <= most_contacts) return;
+    throw InputError(fmt::format(
+        "{} contacts in one time step; {} are the most: remove bodies, or part those that were put into each other",
+        count, most_contacts));
+}
 
 void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, BroadPhase& broad_phase, double margin,
                     const Executor& executor, StepData& data) {

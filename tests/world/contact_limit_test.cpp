@@ -1,0 +1,29 @@
+/// The number of contacts is limited, and the limit told.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "world/detection.h"
+
+namespace cairn {
+namespace {
+
+TEST(ContactLimit, IsToldWithTheNumberAndARemedy) {
+    EXPECT_NO_THROW(requireContacts(0));
+    EXPECT_NO_THROW(requireContacts(most_contacts));
+    try {
+        requireContacts(most_contacts + 1);
+        FAIL() << "a contact too many was taken";
+    } catch (const InputError& error) {
+        const std::string text = error.what();
+        EXPECT_NE(text.find("2000000001 contacts"), std::string::npos) << text;
+        EXPECT_NE(text.find("2000000000 are the most"), std::string::npos) << text;
+        EXPECT_NE(text.find("remove bodies"), std::string::npos) << text;
+    }
+}
+
+/// 32 bits number the contacts.
+static_assert(most_contacts < UINT32_MAX);
+
+}  // namespace
+}  // namespace cairn
