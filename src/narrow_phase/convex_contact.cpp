@@ -126,9 +126,10 @@ void collectDiscs(const Feature& face, const Feature& incident, ConvexPolygon& p
     ConvexPolygon others;
     for (std::size_t i = 0; i < face.corners.size; ++i) {
         const Vec3& corner = face.corners.corners[i];
-        if (!isInDisc(incident, corner, slack)) continue;
-        others.add(corner -
-                   incident.face.height(corner) / incident.face.normal.dot(face.face.normal) * face.face.normal);
+        const double way = incident.face.height(corner) / incident.face.normal.dot(face.face.normal);
+        // Where the discs are far in each other the way along a normal to the other's plane is long, and leads aside.
+        const Vec3 across = corner - way * face.face.normal;
+        if (isInDisc(incident, across, slack)) others.add(across);
     }
     if (others.size == face.corners.size) points.size = 0;
     for (std::size_t i = 0; i < others.size; ++i) points.add(others.corners[i]);

@@ -10,12 +10,15 @@ namespace {
 
 using namespace cairn;
 
-/// Largest error of a distance as a part of the lengths. Where the caps of two cylinders lie on each other with an
-/// angle between them, whose sine is 0.1 at most, rims are taken for circles, which makes points up to 0.5 % of the
-/// radius beside the rim possible; everything else knows distances up to rounding.
+bool isTube(const Shape& shape) {
+    return std::holds_alternative<Cylinder>(shape) || std::holds_alternative<Capsule>(shape);
+}
+
+/// Largest error of a distance as a part of the lengths. Of two cylinders whose axes are up to 0.1 rad from parallel
+/// the caps are taken for circles also when seen along the other's axis, and sides are measured between the axes: of
+/// the radii both leave out 1 − cos(0.1). A capsule's side is one of these. Everything else is known up to rounding.
 double depthError(const Shape& a, const Shape& b) {
-    const bool caps = std::holds_alternative<Cylinder>(a) && std::holds_alternative<Cylinder>(b);
-    return caps ? 1e-3 : 1e-9;
+    return isTube(a) && isTube(b) ? 5e-3 : 1e-9;
 }
 
 /// How high a shape reaches along a direction: its own for a half-space. @param direction [W], unit @return [m]

@@ -196,6 +196,32 @@ TEST(CylinderContact, HasTheDepthOfTheLeastTranslation) {
     EXPECT_GT(contacts, 200);
 }
 
+TEST(CylinderContact, CapsInEachOtherTouchNowhereDeeperThanAlongTheNormal) {
+    Random random(77);
+    int several = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Cylinder a{random.uniform(0.3, 0.6), random.uniform(0.2, 1)};
+        const Cylinder b{random.uniform(0.3, 0.6), random.uniform(0.2, 1)};
+        const Pose pose_a = at({0, 0, 0});
+        const Vec3 axis = Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 0).normalized();
+        const double depth = random.uniform(0, 0.4) * (a.length + b.length);
+        const Pose pose_b =
+            at({random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.6), 0.5 * (a.length + b.length) - depth}, axis,
+               random.uniform(0, 6));
+        const Manifold found = contactOf(a, pose_a, b, pose_b);
+        const bool caps = found.size > 0 && std::abs(found.normal.z()) > 0.9;
+        if (!caps) continue;
+        several += found.size > 2 ? 1 : 0;
+        const auto lowest = [&](const Shape& shape, const Pose& pose, const Vec3& down) {
+            return down.dot(pose.position + pose.orientation * support(shape, pose.orientation.conjugate() * down));
+        };
+        const double along = -lowest(a, pose_a, -found.normal) - lowest(b, pose_b, found.normal);
+        // Rims are taken for circles, also seen at the angle between the caps.
+        EXPECT_GE(deepest(found), along - 1e-3 * std::max(a.radius, b.radius)) << i;
+    }
+    EXPECT_GT(several, 10000);
+}
+
 TEST(CylinderContact, KeepsTheDistanceOfSeparatedOnes) {
     Random random(42);
     for (int i = 0; i < 500; ++i) {
