@@ -38,10 +38,17 @@ bool hasTwoFrictions(const BatchView& batch, std::span<const Contact> contacts) 
         batch.contacts, [&](std::uint32_t i) { return contacts[i].kinetic_friction < contacts[i].static_friction; });
 }
 
-/// Whether some contact closes faster than one at rest does.
-bool isMoving(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies, double threshold) {
-    return std::ranges::any_of(batch.contacts,
-                               [&](std::uint32_t i) { return normalVelocity(contacts[i], bodies) < -threshold; });
+/// Whether some contact closes faster than one at rest does, or more than a part of them slide or separate faster.
+bool isMoving(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies,
+              const ResolutionSettings& settings) {
+    const double threshold = settings.restitution_threshold;
+    std::size_t sliding = 0;
+    for (const std::uint32_t i : batch.contacts) {
+        const Vec3 velocity = relativeVelocity(contacts[i], bodies);
+        if (contacts[i].normal.dot(velocity) < -threshold) return true;
+        sliding += velocity.squaredNorm() > threshold * threshold ? 1 : 0;
+    }
+    return static_cast<double>(sliding) > settings.sliding_part * static_cast<double>(batch.contacts.size());
 }
 
 /// Sweeps over the contacts, forth and back, with accumulated impulses that begin where the last step ended, and
@@ -62,7 +69,7 @@ class AcceleratedSweepsResolution final : public Resolution {
         } else {
             local_.gatherBodies(batch, contacts, bodies);
         }
-        const bool moving = isMoving(batch, contacts, bodies, settings.restitution_threshold);
+        const bool moving = isMoving(batch, contacts, bodies, settings);
         const Sweeps sweeps{
             .limit = sweepLimit(batch.contacts.size(), moving, settings),
             .may_leap = !moving && !framed && local_.dynamic_bodies <= static_cast<std::size_t>(settings.direct_limit)};

@@ -27,12 +27,17 @@ inline void noteMotion(std::span<const BodyIndex> noted, const BodyState& bodies
     for (const BodyIndex i : noted) motion.push_back({bodies.v[i], bodies.w[i]});
 }
 
-/// Normal part of ϑA − ϑB [m/s]; negative = the contact closes. @source thesis (3.4.2)
-inline double normalVelocity(const Contact& contact, const BodyState& bodies) {
+/// ϑA − ϑB [m/s, W]. @source thesis (3.4.1)
+inline Vec3 relativeVelocity(const Contact& contact, const BodyState& bodies) {
     const auto at = [&](BodyIndex i) -> Vec3 {
         return bodies.v[i] + bodies.w[i].cross(contact.point - bodies.position[i]);
     };
-    return contact.normal.dot(at(contact.a) - at(contact.b));
+    return at(contact.a) - at(contact.b);
+}
+
+/// Its normal part [m/s]; negative = the contact closes. @source thesis (3.4.2)
+inline double normalVelocity(const Contact& contact, const BodyState& bodies) {
+    return contact.normal.dot(relativeVelocity(contact, bodies));
 }
 
 /// Whether no fixed body that moves touches the batch.

@@ -169,6 +169,24 @@ TEST(AcceleratedSweeps, GiveTheSameBitsOnAnyNumberOfThreads) {
     }
 }
 
+/// @return visits of a tower whose lowest box slides on the ground
+std::int64_t visitsOfSlidingTower(double sliding_part) {
+    Pile pile = towerOf(8, [](int) { return 1.0; });
+    for (BodyIndex box = 1; box < pile.v.size(); ++box) pile.v[box] += Vec3(1, 0, 0);
+    ResolutionSettings settings = sweeping();
+    settings.direct_limit = 0;
+    settings.moving_sweep_limit = 2;
+    settings.sliding_part = sliding_part;
+    return pile.resolve(settings).global_iterations;
+}
+
+TEST(AcceleratedSweeps, SweepWhatSlidesAsWhatMoves) {
+    // Four of 32 contacts slide.
+    EXPECT_EQ(visitsOfSlidingTower(0.1), 2 * 2 * 32);
+    EXPECT_EQ(visitsOfSlidingTower(0.13), 2 * 20 * 32);
+    EXPECT_EQ(visitsOfSlidingTower(1), 2 * 20 * 32);
+}
+
 TEST(AcceleratedSweeps, LeaveABatchAsleepAloneButKeepItsImpulses) {
     Pile pile = towerOf(3, [](int) { return 1.0; });
     for (BodyIndex i = 1; i < pile.v.size(); ++i) {

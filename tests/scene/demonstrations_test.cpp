@@ -13,41 +13,32 @@ SceneRun started(const std::string& name) {
     return SceneRun(scene, settingsFor(scene));
 }
 
-/// What became of the load of a catapult, averaged over its boxes [m].
-struct Toss {
-    double height = 0;
-    double distance = 0;
-};
-
-Toss toss(const std::string& name) {
+/// How high the load of a catapult flies, averaged over its boxes [m].
+double heightOfToss(const std::string& name) {
     SceneRun run = started(name);
     const Scene scene = builtInScene(name);
     const std::size_t first = 3;  // after ground, fulcrum and plank
     const std::size_t last = scene.bodies.size() - 1;
-    std::vector<Toss> tosses(last);
+    std::vector<double> heights(last, 0);
     while (run.world().time() < 2) {
         run.step();
         for (std::size_t i = first; i < last; ++i) {
             const Vec3 way = run.world().pose(run.ids()[i]).position - scene.bodies[i].position;
-            tosses[i].height = std::max(tosses[i].height, way.z());
-            tosses[i].distance = std::max(tosses[i].distance, way.head<2>().norm());
+            heights[i] = std::max(heights[i], way.z());
         }
     }
-    Toss mean;
-    for (std::size_t i = first; i < last; ++i) {
-        mean.height += tosses[i].height / static_cast<double>(last - first);
-        mean.distance += tosses[i].distance / static_cast<double>(last - first);
-    }
-    return mean;
+    double sum = 0;
+    for (std::size_t i = first; i < last; ++i) sum += heights[i];
+    return sum / static_cast<double>(last - first);
 }
 
-// Thesis Figure 37.
-TEST(Demonstrations, CatapultTossesTheLighterLoadHigherAndFarther) {
-    const Toss heavy = toss("catapult7");
-    const Toss light = toss("catapult15");
-    EXPECT_GT(heavy.height, 0.5);
-    EXPECT_GT(light.height, heavy.height);
-    EXPECT_GT(light.distance, heavy.distance);
+// Thesis Figure 37. How far they fly depends on the angle at which they leave the plank and on how they land: with the
+// finest time steps of the accuracy preset the lighter load flies higher, too, but not as far.
+TEST(Demonstrations, CatapultTossesTheLighterLoadHigher) {
+    const double heavy = heightOfToss("catapult7");
+    const double light = heightOfToss("catapult15");
+    EXPECT_GT(heavy, 0.5);
+    EXPECT_GT(light, 1.1 * heavy);
 }
 
 TEST(Demonstrations, CatapultIsAtRestUntilTheWeightFalls) {
