@@ -57,7 +57,8 @@ int runValidate(const ValidateArguments& arguments) {
 void addValidate(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("validate", "Measure the physics against closed forms and experiments");
     auto arguments = std::make_shared<ValidateArguments>();
-    command->add_option("--only", arguments->only, "Cases or groups by name; default: all")->delimiter(',');
+    command->add_option("--only", arguments->only, "Cases or groups by name, renewed in the page; default: all")
+        ->delimiter(',');
     command->add_option("--out", arguments->out, "Folder of the page; default: validation")->type_name("DIR");
     command->add_option("--toss", arguments->tosses, "Recorded tosses of a cube for the case 'cube-toss'")
         ->type_name("FILE")

@@ -31,28 +31,31 @@ std::string limitOf(const Json& q) {
     return fmt::format("{} {}", rule, number(q.at("allowed")));
 }
 
+/// Bounds judge the measured value itself.
+std::string errorOf(const Json& q) {
+    const std::string rule = q.at("rule");
+    if (rule == "at most" || rule == "at least" || q.at("error").is_null()) return "";
+    const double error = q.at("error").get<double>();
+    return rule == "relative" ? fmt::format("{:.2g} %", 100 * error) : fmt::format("{:.2g}", error);
+}
+
 std::string rowOf(const Json& q) {
     const bool judged = !q.at("passed").is_null();
     const std::string verdict = !judged ? "shown" : q.at("passed").get<bool>() ? "yes" : "**no**";
     const std::string unit = q.at("unit");
-    const std::string setup = cell(q.at("setup"));
-    return fmt::format("| {}{} | {} | {} | {} | {} | {} |\n", cell(q.at("what")), unit.empty() ? "" : " [" + unit + "]",
-                       setup, limitOf(q), number(q.at("measured")), verdict, cell(q.at("note")));
-}
-
-/// Everything that is judged; of what is only shown, what has a meaning of its own.
-bool isListed(const Json& q) {
-    return !q.at("passed").is_null() || q.at("expected").is_null();
+    return fmt::format("| {}{} | {} | {} | {} | {} | {} | {} | {} |\n", cell(q.at("what")),
+                       unit.empty() ? "" : " [" + unit + "]", cell(q.at("setup")), limitOf(q), number(q.at("measured")),
+                       errorOf(q), q.at("order").get<std::string>(), verdict, cell(q.at("note")));
 }
 
 std::string tableOf(const Json& c) {
     std::string text = fmt::format("### {} (`{}`)\n\n{} Source: {}.\n\n", c.at("title").get<std::string>(),
                                    c.at("name").get<std::string>(), c.at("setup").get<std::string>(),
                                    c.at("source").get<std::string>());
-    text += "| quantity | conditions | expected | measured | met | remark |\n|---|---|---|---|---|---|\n";
-    for (const Json& q : c.at("quantities")) {
-        if (isListed(q)) text += rowOf(q);
-    }
+    text +=
+        "| quantity | conditions | expected | measured | error | order | met | remark "
+        "|\n|---|---|---|---|---|---|---|---|\n";
+    for (const Json& q : c.at("quantities")) text += rowOf(q);
     return text + "\n";
 }
 

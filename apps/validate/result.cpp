@@ -42,6 +42,7 @@ Json toJson(const Quantity& q) {
             {"error", q.rule == Rule::shown && !q.expected ? Json(nullptr) : number(q.error())},
             {"allowed", q.rule == Rule::shown ? Json(nullptr) : number(q.allowed)},
             {"passed", q.rule == Rule::shown ? Json(nullptr) : Json(q.passed())},
+            {"order", q.order},
             {"note", q.note}};
 }
 
@@ -65,7 +66,7 @@ Json toJson(const Figure& figure) {
                  {"references", Json::array()}};
     json["lines"] = Json::array();
     for (const Line& line : figure.lines) {
-        json["lines"].push_back({{"label", line.label}, {"x", line.x}, {"y", line.y}});
+        json["lines"].push_back({{"label", line.label}, {"x", line.x}, {"y", line.y}, {"dashed", line.dashed}});
     }
     return json;
 }
@@ -98,6 +99,11 @@ std::optional<double> Convergence::order() const {
     constexpr double round_off = 1e-11;
     if (errors.size() < 2 || !(errors.front() > round_off) || !(errors.back() > round_off)) return {};
     return std::log(errors.front() / errors.back()) / std::log(time_steps.front() / time_steps.back());
+}
+
+std::string Convergence::orderText() const {
+    const std::optional<double> power = order();
+    return power ? fmt::format("{:.1f}", *power) : "rounding";
 }
 
 bool Result::passed() const {
@@ -148,18 +154,21 @@ void measureOver(Result& result, const std::vector<double>& rates, const std::ve
                  const std::function<std::vector<double>(double)>& measure) {
     std::vector<Convergence> convergences;
     for (const Target& target : targets) {
-        convergences.push_back({target.what, target.rule == Rule::relative ? "" : target.unit, {}, {}});
+        const std::string label = target.setup.empty() ? target.what : target.what + ", " + target.setup;
+        convergences.push_back({label, target.rule == Rule::relative ? "" : target.unit, {}, {}});
     }
     const double last = rates.back();
     for (const double rate : rates) {
         const std::vector<double> values = measure(rate);
         for (std::size_t i = 0; i < targets.size(); ++i) {
             const Target& target = targets[i];
-            Quantity q{target.what,  target.unit,    target.rule,        target.expected,
-                       values.at(i), target.allowed, timeStepText(rate), target.note};
+            const std::string setup = (target.setup.empty() ? "" : target.setup + ", ") + timeStepText(rate);
+            Quantity q{target.what,  target.unit,    target.rule, target.expected,
+                       values.at(i), target.allowed, setup,       target.note};
             if (target.rule == Rule::at_most) q.expected.reset();
             convergences[i].time_steps.push_back(1 / rate);
             convergences[i].errors.push_back(q.error());
+            if (rates.size() > 1 && rate == last) q.order = convergences[i].orderText();
             if (rate < std::min(target.decisive, last)) q.rule = Rule::shown;
             result.quantities.push_back(std::move(q));
         }

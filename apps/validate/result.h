@@ -29,8 +29,9 @@ struct Quantity {
     std::optional<double> expected;
     double measured = 0;
     double allowed = 0;
-    std::string setup;  ///< time step, resolver or other conditions
-    std::string note;   ///< what else is to be known; why a target is missed
+    std::string setup;    ///< time step, resolver or other conditions
+    std::string note;     ///< what else is to be known; why a target is missed
+    std::string order{};  ///< with which power of the time step the error falls; at the shortest of several ones only
 
     /// Of the kind that the rule names; the measured value itself for bounds.
     double error() const;
@@ -47,12 +48,15 @@ struct Convergence {
     /// Slope of the error over the time step between the longest and the shortest one; none where the error is
     /// round-off.
     std::optional<double> order() const;
+    /// "2.0", or "rounding".
+    std::string orderText() const;
 };
 
 struct Line {
     std::string label;
     std::vector<double> x;
     std::vector<double> y;
+    bool dashed = false;  ///< a formula beside what was measured
 };
 
 /// A plot.
@@ -95,6 +99,7 @@ struct Target {
     double allowed = 0;
     double decisive = 960;  ///< steps per second from which on the target must be met
     std::string note = {};
+    std::string setup = {};  ///< conditions beside the time step
 };
 
 /// "Δt = 1/960 s"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 
 #include "bench_thesis/machine.h"
 #include "bench_thesis/store.h"
@@ -15,6 +16,9 @@
 namespace cairn::validation {
 
 namespace {
+
+/// Of validation.json; reports of other formats are not added to.
+constexpr int format = 1;
 
 bool isSelected(const Case& c, const std::vector<std::string>& only) {
     return only.empty() ||
@@ -42,10 +46,15 @@ std::string textOf(const Case& c, const Quantity& q) {
                        q.measured, unit, limit);
 }
 
+const char* nameOf(Extent extent) {
+    return extent == Extent::full ? "full" : "quick";
+}
+
 Json head(Extent extent) {
     const thesis::Machine machine = thesis::thisMachine({});
-    return {{"version", cairn::version},
-            {"extent", extent == Extent::full ? "full" : "quick"},
+    return {{"format", format},
+            {"version", cairn::version},
+            {"extent", nameOf(extent)},
             {"machine",
              {{"processor", machine.processor},
               {"cores", machine.cores},
@@ -54,7 +63,31 @@ Json head(Extent extent) {
             {"cases", Json::array()}};
 }
 
-void measure(const Case& c, const ValidateOptions& options, const std::vector<Toss>& tosses, ValidateOutcome& outcome) {
+/// The cases by their place in allCases(); null = not measured.
+using Cases = std::vector<Json>;
+
+/// What an earlier run of the same extent left in the folder, so that a run of single cases renews a whole page.
+/// @throws IoError if there is a file that is no report
+Cases storedCases(const ValidateOptions& options) {
+    Cases cases(allCases().size());
+    const std::filesystem::path file = options.out / "validation.json";
+    if (options.out.empty() || options.only.empty() || !std::filesystem::exists(file)) return cases;
+    try {
+        const Json report = Json::parse(thesis::readWhole(file));
+        if (report.at("format") != format || report.at("extent") != nameOf(options.extent)) return cases;
+        for (const Json& stored : report.at("cases")) {
+            const auto same = [&](const Case& c) { return stored.at("name") == c.name; };
+            const auto found = std::ranges::find_if(allCases(), same);
+            if (found != allCases().end()) cases[static_cast<std::size_t>(found - allCases().begin())] = stored;
+        }
+    } catch (const Json::exception& error) {
+        throw IoError(fmt::format("{}: is no report of a validation ({}); remove it or give another folder with --out",
+                                  file.string(), error.what()));
+    }
+    return cases;
+}
+
+Json measure(const Case& c, const ValidateOptions& options, const std::vector<Toss>& tosses, ValidateOutcome& outcome) {
     options.began(std::string(c.name));
     Plan plan{options.extent, tosses};
     plan.alive = [&] {
@@ -77,9 +110,9 @@ void measure(const Case& c, const ValidateOptions& options, const std::vector<To
     Json json = {{"name", c.name},     {"group", c.group}, {"title", c.title},
                  {"source", c.source}, {"setup", c.setup}, {"seconds", spent.count()}};
     json.update(toJson(result));
-    outcome.report["cases"].push_back(std::move(json));
     options.finished(fmt::format("{:<22} {:>6}  {:>3} of {:>3} targets met  {:>8.1f} s", c.name,
                                  result.passed() ? "passed" : "MISSED", met, judged, spent.count()));
+    return json;
 }
 
 void write(const ValidateOptions& options, ValidateOutcome& outcome) {
@@ -104,9 +137,13 @@ ValidateOutcome runValidation(const ValidateOptions& options) {
     for (const auto& file : options.tosses) tosses.push_back(readToss(file));
     ValidateOutcome outcome;
     outcome.report = head(options.extent);
-    for (const Case& c : allCases()) {
-        if (!isSelected(c, options.only)) continue;
-        measure(c, options, tosses, outcome);
+    Cases cases = storedCases(options);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        if (!isSelected(allCases()[i], options.only)) continue;
+        cases[i] = measure(allCases()[i], options, tosses, outcome);
+        outcome.report["cases"] = Json::array();
+        std::ranges::copy_if(cases, std::back_inserter(outcome.report["cases"]),
+                             [](const Json& c) { return !c.is_null(); });
         // After every case, so that an interrupted run leaves what it found.
         if (!options.out.empty()) write(options, outcome);
     }

@@ -14,7 +14,7 @@ namespace cairn::validation {
 /// How the validation is run.
 struct ValidateOptions {
     std::filesystem::path out;      ///< folder; made if it does not exist; empty = nothing is written
-    std::vector<std::string> only;  ///< names of cases or groups; empty = all
+    std::vector<std::string> only;  ///< names of cases or groups, empty = all; what was stored of the others stays
     Extent extent = Extent::full;
     std::vector<std::filesystem::path> tosses{};  ///< recorded tosses for the case "cube-toss"
     std::function<void(const std::string&)> began = [](const std::string&) {};     ///< a case by its name

@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
 #include <set>
 
 #include "cairn/types.h"
@@ -69,6 +73,48 @@ TEST(Validation, NamesEveryCaseOnce) {
     for (const Case& c : allCases()) EXPECT_TRUE(names.insert(c.name).second) << c.name;
 }
 
+/// A folder of the tests, removed at the end.
+class Folder {
+  public:
+    Folder() : path_(std::filesystem::temp_directory_path() / ("validation" + std::to_string(std::random_device{}()))) {
+        std::filesystem::create_directories(path_);
+    }
+    ~Folder() { std::filesystem::remove_all(path_); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+std::vector<std::string> namesIn(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    std::vector<std::string> names;
+    const Json report = Json::parse(stream);
+    for (const Json& c : report.at("cases")) names.push_back(c.at("name"));
+    return names;
+}
+
+TEST(Validation, OfSingleCasesKeepsWhatIsStoredOfTheOthers) {
+    const Folder folder;
+    ValidateOptions options;
+    options.out = folder.path();
+    options.extent = Extent::quick;
+    options.only = {"slide-to-roll"};
+    const ValidateOutcome first = runValidation(options);
+    options.only = {"parabola"};
+    const ValidateOutcome second = runValidation(options);
+    EXPECT_EQ(second.cases, 1U);
+    EXPECT_EQ(namesIn(second.json), (std::vector<std::string>{"parabola", "slide-to-roll"})) << "in the page's order";
+    EXPECT_EQ(second.report.at("cases").at(1), first.report.at("cases").at(0));
+    // Figures of another extent would not fit beside these.
+    options.extent = Extent::full;
+    EXPECT_EQ(namesIn(runValidation(options).json), std::vector<std::string>{"parabola"});
+    std::ofstream(second.json) << "{}";
+    EXPECT_THROW(runValidation(options), IoError);
+}
+
 TEST(Quantity, MissesItsTargetWhenTheErrorIsTooLargeOrNotANumber) {
     Quantity q{"speed", "m/s", Rule::relative, 2.0, 2.02, 0.011, "", ""};
     EXPECT_TRUE(q.passed());
@@ -86,10 +132,13 @@ TEST(Convergence, FindsTheOrderOfAnErrorThatFallsQuadratically) {
     const Convergence c{"", "", {0.1, 0.01}, {1e-2, 1e-4}};
     ASSERT_TRUE(c.order());
     EXPECT_NEAR(*c.order(), 2, 1e-12);
+    EXPECT_EQ(c.orderText(), "2.0");
 }
 
 TEST(Convergence, HasNoOrderWhereTheErrorIsRounding) {
-    EXPECT_FALSE((Convergence{"", "", {0.1, 0.01}, {1e-15, 1e-16}}.order()));
+    const Convergence c{"", "", {0.1, 0.01}, {1e-15, 1e-16}};
+    EXPECT_FALSE(c.order());
+    EXPECT_EQ(c.orderText(), "rounding");
 }
 
 }  // namespace

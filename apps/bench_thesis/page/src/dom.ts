@@ -24,7 +24,7 @@ export function formatNumber(value: number): string {
   if (value === 0) return '0';
   if (size < 1e-3) {
     const [digits, power] = value.toExponential(1).split('e');
-    return `${digits} × 10${superscript(Number(power))}`.replace('-', '−');
+    return `${digits}\u00a0×\u00a010${superscript(Number(power))}`.replace('-', '−');
   }
   const [whole, rest] = String(Number(value.toPrecision(4))).split('.');
   const grouped = whole!.replace(/\B(?=(\d{3})+$)/g, '\u202f').replace('-', '−');

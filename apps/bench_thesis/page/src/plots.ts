@@ -21,14 +21,22 @@ function pointsOf(figure: Figure, index: number): Point[] {
   }));
 }
 
+/** Of a line whose points lie elsewhere: between its neighbours; nothing beyond its ends. */
+function valueAt(points: Point[], x: number): number {
+  const next = points.findIndex((point) => point.x >= x);
+  if (next < 0 || (next === 0 && points[0]!.x > x)) return NaN;
+  const [b, a] = [points[next]!, points[Math.max(0, next - 1)]!];
+  return b.x === x ? b.y : a.y + ((b.y - a.y) * (x - a.x)) / (b.x - a.x);
+}
+
 /** For the pointer: all lines' values at one place. */
 function readings(figure: Figure, lines: Point[][]): Point[] {
-  return lines[0]!.map((point, i) => {
+  return lines[0]!.map((point) => {
     const values = figure.lines.map((line, k) => {
-      const y = lines[k]![i]?.y;
-      return `${line.label}: ${y === undefined || Number.isNaN(y) ? '–' : formatNumber(y)}`;
+      const y = valueAt(lines[k]!, point.x);
+      return `${line.label}: ${Number.isNaN(y) ? '–' : formatNumber(y)}`;
     });
-    const seen = lines.map((line) => line[i]?.y ?? NaN).filter((y) => !Number.isNaN(y));
+    const seen = lines.map((line) => valueAt(line, point.x)).filter((y) => !Number.isNaN(y));
     const at = figure.lines[0]!.x ? `${formatNumber(point.x)}` : `step ${point.x}`;
     return { x: point.x, y: seen.length ? Math.max(...seen) : NaN, title: [at, ...values].join('\n') };
   });
@@ -103,7 +111,13 @@ function draw(figure: Figure, width: number): SVGSVGElement | HTMLElement {
         }),
       ),
       ...lines.map((points, i) =>
-        Plot.line(points, { x: 'x', y: 'y', stroke: colours[i % colours.length]!, strokeWidth: 1.6 }),
+        Plot.line(points, {
+          x: 'x',
+          y: 'y',
+          stroke: colours[i % colours.length]!,
+          strokeWidth: 1.6,
+          strokeDasharray: figure.lines[i]!.dashed ? dashes[0]! : 'none',
+        }),
       ),
       Plot.ruleX(readings(figure, lines), Plot.pointerX({ x: 'x', stroke: 'var(--axis)' })),
       Plot.tip(
@@ -124,7 +138,7 @@ function swatch(colour: string, dash: string): SVGSVGElement {
 
 function legend(figure: Figure): HTMLElement {
   const items = figure.lines.map((line, i) =>
-    element('span', {}, swatch(colours[i % colours.length]!, 'none'), line.label),
+    element('span', {}, swatch(colours[i % colours.length]!, line.dashed ? dashes[0]! : 'none'), line.label),
   );
   for (const [i, reference] of figure.references.entries()) {
     items.push(element('span', {}, swatch('var(--reference)', dashes[i % dashes.length]!), reference.label));

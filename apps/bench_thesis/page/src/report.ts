@@ -14,6 +14,8 @@ export interface Line {
   label: string;
   y: (number | null)[];
   x?: number[];
+  /** A formula beside what was measured. */
+  dashed?: boolean;
 }
 
 export interface Figure {

@@ -43,13 +43,14 @@ function row(q: Quantity): HTMLElement {
     element('td', {}, q.expected === null ? '' : withUnit(q.expected, q.unit)),
     element('td', { class: 'ours' }, withUnit(q.measured, q.unit)),
     element('td', {}, errorText(q)),
+    element('td', {}, q.order),
     element('td', {}, limitText(q)),
     element('td', { class: verdict }, verdict),
   );
 }
 
 function table(quantities: Quantity[]): HTMLElement {
-  const head = ['', 'expected', 'measured', 'error', 'allowed', ''].map((text) =>
+  const head = ['', 'expected', 'measured', 'error', 'order', 'allowed', ''].map((text) =>
     element('th', { scope: 'col' }, text),
   );
   const body = element('tbody', {}, ...quantities.map(row));
@@ -86,10 +87,29 @@ function caseElement(c: Case): HTMLElement {
     { class: 'case', id: c.name },
     element('h3', {}, c.title, ' ', mark(c.passed)),
     element('p', {}, element('span', { class: 'source' }, 'Expected: '), c.source),
-    element('p', { class: 'quiet' }, `${c.setup} (${c.name}, ${formatNumber(c.seconds)} s)`),
+    element('p', { class: 'quiet' }, `${c.setup} (${c.name}, ${c.seconds < 10 ? c.seconds.toFixed(1) : Math.round(c.seconds)}\u202fs)`),
     table(c.quantities),
     element('div', { class: 'charts' }, ...figures.map(figureElement)),
   );
+}
+
+function missedItem(c: Case, q: Quantity): HTMLElement {
+  const expected = q.rule === 'relative' || q.rule === 'absolute' ? `${withUnit(q.expected, q.unit)} within ` : '';
+  return element(
+    'li',
+    {},
+    element('a', { href: `#${c.name}` }, c.title),
+    `: ${q.what}${q.setup ? ` (${q.setup})` : ''}: `,
+    element('b', {}, withUnit(q.measured, q.unit)),
+    `; wanted: ${expected}${limitText(q)}`,
+    element('small', {}, q.note),
+  );
+}
+
+/** Every target that is missed, with the reason that its remark gives. */
+function missedList(cases: Case[]): HTMLElement[] {
+  const items = cases.flatMap((c) => judged(c).filter((q) => !q.passed).map((q) => missedItem(c, q)));
+  return items.length === 0 ? [] : [element('h2', {}, 'Missed, and why'), element('ul', {}, ...items)];
 }
 
 function overviewRow(c: Case): HTMLElement {
@@ -120,19 +140,20 @@ main.append(
   element(
     'p',
     {},
-    `${passed} of ${report.cases.length} cases meet all their targets. What is missed stays in the tables, with its value.`,
+    `${passed} of ${report.cases.length} cases meet all their targets. What is missed stands below the overview, with its value.`,
   ),
   element(
     'p',
     { class: 'quiet' },
     `Cairn ${report.version} on ${processor}, ${cores} cores, ${system}, ${compiler}. Unless said otherwise: the accuracy ` +
-      'preset with exact_flight, the resolution accelerated_sweeps run to convergence, sleeping off.',
+      'preset with exact_flight, the resolution accelerated_sweeps run to convergence, sleeping off. Order: with which ' +
+      'power of the time step the error falls; 0 where something else limits it, such as the steps of a bisection; negative where rounding adds up.',
   ),
 );
 if (report.extent === 'quick') {
   main.append(element('p', { class: 'banner' }, 'A quick run: coarser and shorter; for the signs, not the numbers.'));
 }
-main.append(overview(report.cases));
+main.append(overview(report.cases), ...missedList(report.cases));
 for (const group of new Set(report.cases.map((c) => c.group))) {
   main.append(element('h2', {}, group), ...report.cases.filter((c) => c.group === group).map(caseElement));
 }

@@ -11,6 +11,8 @@ export interface Quantity {
   error: number | null;
   allowed: number | null;
   passed: boolean | null;
+  /** With which power of the time step the error falls, or 'rounding'; at the shortest of several ones only. */
+  order: string;
   note: string;
 }
 
