@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "cases.h"
 #include "validate/world_tools.h"
@@ -64,31 +63,28 @@ void measure(Result& result, const Plan& plan, double restitution) {
     std::vector<double> rates = {240, 960, 3840};
     if (!plan.isQuick()) rates.push_back(15360);
     Line path;
-    Convergence heights{fmt::format("heights, e = {}", restitution), "", {}, {}};
-    for (const double rate : rates) {
-        Bounces found = bounce(rate, restitution, 1.2 * total, plan);
+    const auto worstHeight = [&](const Bounces& found) {
         double worst = 0;
         for (int n = 0; n < bounces; ++n) {
             const double expected = height * std::pow(restitution, 2 * (n + 1));
             const double measured = n < static_cast<int>(found.heights.size()) ? found.heights[n] : 0;
             worst = std::max(worst, std::abs(measured / expected - 1));
         }
-        const std::string setup = timeStepText(rate);
-        result.atMost(fmt::format("heights of ten bounces, worst relative error, e = {}", restitution), "", worst, 1e-3,
-                      setup);
-        result.relative(fmt::format("time until it rests, e = {}", restitution), "s", total, found.time, 0.01, setup,
-                        "bounces take a time step at least; impacts below 5 mm/s end them");
-        if (rate < 960) {
-            for (Quantity& q : std::span(result.quantities).last(2)) q.rule = Rule::shown;
-        }
-        heights.time_steps.push_back(1 / rate);
-        heights.errors.push_back(worst);
-        if (rate == 960) path = std::move(found.path);
-    }
+        return worst;
+    };
+    measureOver(
+        result, rates,
+        {{fmt::format("heights of ten bounces, worst relative error, e = {}", restitution), "", Rule::at_most, 0, 1e-3},
+         {fmt::format("time until it rests, e = {}", restitution), "s", Rule::relative, total, 0.01, 960,
+          "bounces take a time step at least; impacts below 5 mm/s end them"}},
+        [&](double rate) {
+            Bounces found = bounce(rate, restitution, 1.2 * total, plan);
+            if (rate == 960) path = found.path;
+            return std::vector{worstHeight(found), found.time};
+        });
     path.label = fmt::format("e = {}", restitution);
     if (result.figures.empty()) result.figures.push_back({"Height at Δt = 1/960 s", "time [s]", "height [m]", {}});
     result.figures.front().lines.push_back(std::move(path));
-    result.convergences.push_back(std::move(heights));
 }
 
 Result run(const Plan& plan) {

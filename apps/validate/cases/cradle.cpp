@@ -34,7 +34,7 @@ double collide(int n, int k) {
 
 Result run(const Plan& plan) {
     Result result;
-    for (const int n : {2, 3, 5, 10}) {
+    for (int n = 2; n <= 10; ++n) {
         double worst = 0;
         for (int k = 1; k < n; ++k) {
             plan.alive();

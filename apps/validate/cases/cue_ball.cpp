@@ -65,7 +65,7 @@ Result run(const Plan& plan) {
                                        play(rate, Shot::natural_roll, 28.1 * degree).deflection};
                 });
     Line measured{"measured", {}, {}};
-    Line formula{"expected", {}, {}};
+    Line formula{"expected", {}, {}, true};
     double most = 0;
     double best = 0;
     for (double cut = 4; cut < 80; cut += cut < 34 && cut >= 22 ? 1 : 6) {

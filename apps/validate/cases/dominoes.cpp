@@ -57,7 +57,7 @@ Result run(const Plan& plan) {
         double gap, speed;
     };
     Line measured{"measured", {}, {}};
-    Line expected{"expected", {}, {}};
+    Line expected{"expected", {}, {}, true};
     for (const auto& [gap, speed] :
          {Published{0.005, 1.083}, {0.0085, 1.024}, {0.010, 1.005}, {0.020, 0.922}, {0.030, 0.847}, {0.036, 0.790}}) {
         const std::vector<double> rates = plan.isQuick() ? std::vector<double>{960} : std::vector<double>{960, 3840};

@@ -78,7 +78,7 @@ void simulate(Result& result, double rate, double duration, const Plan& plan) {
     result.relative("pressure on the walls", "Pa", density * kT * carnahanStarling(eta), pressure, 0.01, setup,
                     "in the middle of the walls, away from the edges, with the density in the middle of the cage");
     Line measured{"measured", {}, {}};
-    Line expected{"Maxwell", {}, {}};
+    Line expected{"Maxwell", {}, {}, true};
     for (std::size_t i = 0; i < speeds.size(); i += 5) {
         measured.x.push_back(speeds[i]);
         measured.y.push_back((static_cast<double>(i) + 0.5) / static_cast<double>(speeds.size()));

@@ -1,10 +1,14 @@
 /// @file Many grains in a container.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
+#include <string>
 #include <vector>
 
 #include "validate/case.h"
@@ -27,6 +31,36 @@ inline Settings granularSettings(double rate = 480) {
     settings.gravity_damping.damping = 0;
     return settings;
 }
+
+/// Random numbers of the fillings over which a case takes the mean: each is another packing.
+inline std::vector<std::uint64_t> seedsOfFillings(const Plan& plan, std::uint64_t count = 5) {
+    std::vector<std::uint64_t> seeds(plan.isQuick() ? 1 : count);
+    std::iota(seeds.begin(), seeds.end(), 7);
+    return seeds;
+}
+
+/// A quantity of several fillings.
+class Fillings {
+  public:
+    void add(double value) { values_.push_back(value); }
+    double mean() const {
+        return std::accumulate(values_.begin(), values_.end(), 0.0) / static_cast<double>(values_.size());
+    }
+    /// Standard deviation of single fillings. @pre at least two
+    double spread() const {
+        double squares = 0;
+        for (const double value : values_) squares += (value - mean()) * (value - mean());
+        return std::sqrt(squares / static_cast<double>(values_.size() - 1));
+    }
+    /// "mean of 5 fillings, standard deviation 0.004"
+    std::string text() const {
+        if (values_.size() < 2) return "one filling";
+        return fmt::format("mean of {} fillings, standard deviation {:.2g}", values_.size(), spread());
+    }
+
+  private:
+    std::vector<double> values_;
+};
 
 /// How grains are turned when they are poured.
 enum class Turned { a_little, any_way };

@@ -41,7 +41,7 @@ Result run(const Plan& plan) {
         16 * radius * radius * density * chi * std::sqrt(std::numbers::pi * kT) * partInside(2 * radius / reach);
     const double cooling = (1 - restitution * restitution) / 6 * collisions;
     Line measured{"measured", {}, {}};
-    Line expected{"Haff's law", {}, {}};
+    Line expected{"Haff's law", {}, {}, true};
     Line fit{"1/√T", {}, {}};
     double st = 0, sr = 0, stt = 0, str = 0, n = 0;
     while (gas.world.time() - begin < duration) {

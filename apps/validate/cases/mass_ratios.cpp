@@ -21,10 +21,10 @@ Result run(const Plan& plan) {
     Result result;
     const double duration = plan.isQuick() ? 1 : 10;
     for (const double ratio : {10.0, 100.0, 1000.0, 1e4}) {
-        judgeAllResolvers(result, fmt::format("ratio {:g}", ratio), duration, plan,
-                          [&](const Settings& settings, double patience) {
-                              return stand(settings, ratio, duration, patience, plan);
-                          });
+        const auto build = [&](const Settings& settings, double patience) {
+            return stand(settings, ratio, duration, patience, plan);
+        };
+        judgeAllResolvers(result, fmt::format("ratio {:g}", ratio), duration, plan, build, stackRates(plan));
     }
     return result;
 }

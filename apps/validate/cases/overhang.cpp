@@ -10,8 +10,8 @@ namespace {
 const Vec3 block(0.2, 0.1, 0.03);  ///< [m]
 
 /// Whether n blocks stand whose overhangs are the given part of the largest possible ones.
-bool stands(int n, double part, double duration, const Plan& plan) {
-    World world = makeWorld(accurateSettings(960), Vec3(0, 0, -g), contactLaw(0, 0.5));
+bool stands(int n, double part, double rate, double duration, const Plan& plan) {
+    World world = makeWorld(accurateSettings(rate), Vec3(0, 0, -g), contactLaw(0, 0.5));
     BodyDescription table = body(Box{Vec3(1, 1, 0.1)}, 1, Vec3(-0.5, 0, -0.05));
     table.fixed = true;
     world.addBody(table);
@@ -36,9 +36,14 @@ Result run(const Plan& plan) {
     for (int n = 2; n <= 5; ++n) {
         double lengths = 0;
         for (int i = 1; i <= n; ++i) lengths += 0.5 / i;
-        const std::string setup = fmt::format("n = {}, largest overhang {:.3f} lengths", n, lengths);
-        result.atLeast("stands at 0.99 times the overhang (1 = yes)", "", stands(n, 0.99, duration, plan), 1, setup);
-        result.atMost("stands at 1.01 times the overhang (1 = yes)", "", stands(n, 1.01, duration, plan), 0, setup);
+        for (const double rate : plan.rates()) {
+            const std::string setup =
+                fmt::format("n = {}, largest overhang {:.3f} lengths, {}", n, lengths, timeStepText(rate));
+            result.atLeast("stands at 0.99 times the overhang (1 = yes)", "", stands(n, 0.99, rate, duration, plan), 1,
+                           setup);
+            result.atMost("stands at 1.01 times the overhang (1 = yes)", "", stands(n, 1.01, rate, duration, plan), 0,
+                          setup);
+        }
     }
     return result;
 }

@@ -46,20 +46,21 @@ Load fill(int count, double width, std::uint64_t seed, const Plan& plan) {
 Result run(const Plan& plan) {
     Result result;
     const double width = 4 * grain;
-    const std::uint64_t fillings = plan.isQuick() ? 1 : 5;
     std::vector<int> counts = {50, 100, 200, 300, 400, 500};
     if (plan.isQuick()) counts = {50, 150};
     Line measured{"measured", {}, {}};
     for (const int count : counts) {
-        // Each filling is another packing; their loads differ by a fifth.
-        Load mean;
-        for (std::uint64_t filling = 0; filling < fillings; ++filling) {
-            const Load load = fill(count, width, 7 + filling, plan);
-            mean.weight += load.weight / static_cast<double>(fillings);
-            mean.floor += load.floor / static_cast<double>(fillings);
+        Fillings floor;
+        double weight = 0;
+        for (const std::uint64_t seed : seedsOfFillings(plan)) {
+            const Load load = fill(count, width, seed, plan);
+            floor.add(load.floor);
+            weight = load.weight;
         }
-        measured.x.push_back(mean.weight);
-        measured.y.push_back(mean.floor);
+        measured.x.push_back(weight);
+        measured.y.push_back(floor.mean());
+        result.show("load of the floor", "N", floor.mean(), fmt::format("{} grains, {:.0f} N", count, weight),
+                    floor.text());
     }
     // The saturation that fits best: M(W) = S(1 − exp(−W/S)).
     const auto janssen = [](double weight, double saturation) {
@@ -87,7 +88,7 @@ Result run(const Plan& plan) {
         result.atMost("load under 500 grains over that under 300", "", measured.y[last] / measured.y[last - 2], 1.2, "",
                       "without walls it would be 1.67");
     }
-    Line expected{"Janssen, fitted", {}, {}};
+    Line expected{"Janssen, fitted", {}, {}, true};
     for (double w = 0; w <= measured.x.back(); w += measured.x.back() / 50) {
         expected.x.push_back(w);
         expected.y.push_back(janssen(w, best));

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 
 #include "cases.h"
 #include "validate/world_tools.h"
@@ -17,12 +18,14 @@ struct Roll {
     double distance = 0;  ///< until then [m]
 };
 
-Roll roll(double rate) {
+/// Of a round body whose z axis lies across its way.
+Roll roll(double rate, const Shape& shape) {
     World world = makeWorld(accurateSettings(rate), Vec3(0, 0, -g), contactLaw(0, friction));
     addPlane(world);
-    BodyDescription ball = body(Sphere{radius}, 1, Vec3(0, 0, radius));
-    ball.linear_velocity = Vec3(v0, 0, 0);
-    const BodyId id = world.addBody(ball);
+    BodyDescription round = body(shape, 1, Vec3(0, 0, radius));
+    round.pose.orientation = Quat(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()));
+    round.linear_velocity = Vec3(v0, 0, 0);
+    const BodyId id = world.addBody(round);
     Roll roll;
     while (world.time() < 1.5) {
         world.step();
@@ -37,23 +40,30 @@ Roll roll(double rate) {
     return roll;
 }
 
-Result run(const Plan& plan) {
-    Result result;
-    const double time = 2 * v0 / (7 * friction * g);
-    const double distance = 12 * v0 * v0 / (49 * friction * g);
-    std::vector<double> rates = plan.rates();
+/// @param k I/(m r²)
+void measure(Result& result, const Plan& plan, const Shape& shape, const std::string& name, double k) {
+    const double speed = v0 / (1 + k);
+    const double time = (v0 - speed) / (friction * g);
+    const double distance = (v0 + speed) / 2 * time;
+    const std::vector<double> rates = plan.rates();
     measureOver(result, rates,
-                {{"speed of rolling", "m/s", Rule::relative, 5 * v0 / 7, 1e-4, 240},
-                 {"distance until it rolls", "m", Rule::relative, distance, 2e-3, 960,
+                {{"speed of rolling, " + name, "m/s", Rule::relative, speed, 1e-4, 240},
+                 {"distance until it rolls, " + name, "m", Rule::relative, distance, 2e-3, 960,
                   "ends with the time step in which rolling begins: one time step is 0.12 %"}},
-                [](double rate) {
-                    const Roll r = roll(rate);
+                [&](double rate) {
+                    const Roll r = roll(rate, shape);
                     return std::vector{r.speed, r.distance};
                 });
     for (const double rate : rates) {
-        result.absolute("time until it rolls", "s", time, roll(rate).time, 1 / rate, timeStepText(rate),
+        result.absolute("time until it rolls, " + name, "s", time, roll(rate, shape).time, 1 / rate, timeStepText(rate),
                         "within one time step");
     }
+}
+
+Result run(const Plan& plan) {
+    Result result;
+    measure(result, plan, Sphere{radius}, "ball", 0.4);
+    measure(result, plan, Cylinder{.radius = radius, .length = 0.3}, "cylinder", 0.5);
     return result;
 }
 
@@ -61,9 +71,9 @@ Result run(const Plan& plan) {
 
 const Case slide_to_roll{"slide-to-roll",
                          "Rolling",
-                         "A sliding ball begins to roll",
-                         "v = 5v₀/7, t = 2v₀/(7µg), s = 12v₀²/(49µg)",
-                         "Ball, radius 0.1 m, v₀ = 5 m/s without spin, µ = 0.2, on a plane.",
+                         "A sliding ball or cylinder begins to roll",
+                         "v = v₀/(1 + k), t = (v₀ − v)/(µg), s = t(v₀ + v)/2; k = I/(m r²): 5v₀/7 and 2v₀/3",
+                         "Ball, and cylinder of 0.3 m, radius 0.1 m, v₀ = 5 m/s without spin, µ = 0.2, on a plane.",
                          run};
 
 }  // namespace cairn::validation

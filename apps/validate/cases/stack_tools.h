@@ -1,6 +1,8 @@
 /// @file What the cases of stacks share: a pile that should stand, watched.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -112,19 +114,33 @@ inline void judge(Result& result, const Standing& s, const std::string& setup, c
 /// Builds a stack with the settings and watches it until the patience is used up [s].
 using Stand = std::function<Standing(const Settings& settings, double patience)>;
 
+/// Further time steps of stacks that do not take long.
+inline std::vector<double> stackRates(const Plan& plan) {
+    return plan.isQuick() ? std::vector<double>{} : std::vector<double>{240, 3840};
+}
+
 /// Judges a stack with either preset and shows it with the other resolutions.
-/// @param name of the stack @param duration that it is to stand [s]
+/// @param name of the stack @param duration that it is to stand [s] @param rates further steps per second of the
+/// accuracy preset, with the resolution that is judged
 inline void judgeAllResolvers(Result& result, const std::string& name, double duration, const Plan& plan,
-                              const Stand& stand) {
+                              const Stand& stand, const std::vector<double>& rates = {}) {
+    const auto setup = [&](const char* preset, double rate, const Resolver& resolver) {
+        return fmt::format("{}, {}, {}, {}", name, preset, timeStepText(rate), resolver.name);
+    };
     for (const Resolver& resolver : resolvers) {
         judge(result, stand(accurateSettings(960, resolver.kind), resolver.patience(plan)),
-              name + ", accuracy, " + resolver.name, resolver, {duration, 1e-4, true});
+              setup("accuracy", 960, resolver), resolver, {duration, 1e-4, true});
+    }
+    const Resolver& judged = resolvers.back();
+    for (const double rate : rates) {
+        judge(result, stand(accurateSettings(rate, judged.kind), judged.patience(plan)),
+              setup("accuracy", rate, judged), judged, {duration, 1e-4, true});
     }
     Settings fast = Settings::preset(Preset::performance, 240, g);
     fast.sleep.sleeping = false;
     for (const Resolver& resolver : resolvers) {
         fast.resolution.resolution = resolver.kind;
-        judge(result, stand(fast, resolver.patience(plan)), name + ", performance, " + resolver.name, resolver,
+        judge(result, stand(fast, resolver.patience(plan)), setup("performance", 240, resolver), resolver,
               {duration, 2e-3, false});
     }
 }

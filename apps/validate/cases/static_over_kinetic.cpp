@@ -30,7 +30,7 @@ Result run(const Plan& plan) {
                     return std::vector{acceleration(rate, limit - 0.02 * degree), acceleration(rate, above)};
                 });
     Line measured{"measured", {}, {}};
-    Line expected{"expected", {}, {}};
+    Line expected{"expected", {}, {}, true};
     for (double angle = 20 * degree; angle < 34 * degree; angle += 0.5 * degree) {
         plan.alive();
         measured.x.push_back(angle / degree);

@@ -24,10 +24,10 @@ Result run(const Plan& plan) {
     Result result;
     const double duration = plan.isQuick() ? 2 : 60;
     for (const int boxes : {10, 20, 40}) {
-        judgeAllResolvers(result, fmt::format("{} boxes", boxes), duration, plan,
-                          [&](const Settings& settings, double patience) {
-                              return stand(settings, boxes, duration, patience, plan);
-                          });
+        const auto build = [&](const Settings& settings, double patience) {
+            return stand(settings, boxes, duration, patience, plan);
+        };
+        judgeAllResolvers(result, fmt::format("{} boxes", boxes), duration, plan, build, stackRates(plan));
     }
     return result;
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cases.h"
@@ -16,8 +17,8 @@ struct Outcome {
     double momentum = 0;    ///< relative error
 };
 
-Outcome collide(double ratio, double restitution) {
-    World world = makeWorld(accurateSettings(960), Vec3::Zero(), contactLaw(restitution, 0.3));
+Outcome collide(double ratio, double restitution, double rate) {
+    World world = makeWorld(accurateSettings(rate), Vec3::Zero(), contactLaw(restitution, 0.3));
     BodyDescription first = body(Sphere{radius}, ratio, Vec3(-radius - 0.01, 0, 0));
     first.linear_velocity = Vec3(1, 0, 0);
     const BodyId a = world.addBody(first);
@@ -26,19 +27,31 @@ Outcome collide(double ratio, double restitution) {
     return {world.linearVelocity(a).x(), world.linearVelocity(b).x(), std::abs(world.linearMomentum().x() / ratio - 1)};
 }
 
-Result run(const Plan&) {
+/// Of both velocities, relative to the larger one.
+double errorOf(const Outcome& outcome, double ratio, double restitution) {
+    const double v1 = (ratio - restitution) / (ratio + 1);
+    const double v2 = ratio * (1 + restitution) / (ratio + 1);
+    return std::max(std::abs(outcome.v1 - v1), std::abs(outcome.v2 - v2)) / std::max(std::abs(v1), std::abs(v2));
+}
+
+Result run(const Plan& plan) {
     Result result;
     for (const double restitution : {0.0, 0.5, 1.0}) {
         for (const double ratio : {1.0, 10.0, 1e3, 1e6, 1e-3, 1e-6}) {
-            const Outcome outcome = collide(ratio, restitution);
-            const double v1 = (ratio - restitution) / (ratio + 1);
-            const double v2 = ratio * (1 + restitution) / (ratio + 1);
-            const std::string setup = fmt::format("m₁/m₂ = {:g}, e = {}", ratio, restitution);
+            double velocities = 0;
+            double momentum = 0;
+            for (const double rate : plan.rates()) {
+                const Outcome outcome = collide(ratio, restitution, rate);
+                velocities = std::max(velocities, errorOf(outcome, ratio, restitution));
+                momentum = std::max(momentum, outcome.momentum);
+            }
+            const std::string setup = fmt::format("m₁/m₂ = {:g}, e = {}, worst time step", ratio, restitution);
+            const bool stopped = ratio < 1e-3 && restitution == 0;
             result.atMost(
-                "error of both velocities, relative to the larger", "",
-                std::max(std::abs(outcome.v1 - v1), std::abs(outcome.v2 - v2)) / std::max(std::abs(v1), std::abs(v2)),
-                1e-12, setup, ratio < 1e-3 && restitution == 0 ? "of the approach it is 6e-17" : "");
-            result.atMost("momentum, relative error", "", outcome.momentum, 1e-12, setup);
+                "error of both velocities, relative to the larger", "", velocities, 1e-12, setup,
+                stopped ? "the next impulse that a double can hold changes what is left of the speed by 2e-10 of it"
+                        : "");
+            result.atMost("momentum, relative error", "", momentum, 1e-12, setup);
         }
     }
     return result;
@@ -50,7 +63,7 @@ const Case two_body_impact{"two-body-impact",
                            "Impacts",
                            "Two balls collide",
                            "v₁' = (m₁ − e m₂)/(m₁ + m₂) v, v₂' = m₁(1 + e)/(m₁ + m₂) v",
-                           "Central impact without gravity, mass ratios from 10⁻⁶ to 10⁶.",
+                           "Central impact without gravity, mass ratios from 10⁻⁶ to 10⁶, e = 0, 0.5 and 1.",
                            run};
 
 }  // namespace cairn::validation
