@@ -47,9 +47,9 @@ struct CorrectionSettings {
     CorrectionKind correction = CorrectionKind::propagated;  ///< the algorithm, or none
     double penetration_threshold = 1.74e-3;  ///< overlap above which a contact is corrected [m]; −thr_pen of the thesis
     double remaining_penetration = 0.7;      ///< part of the threshold that a correction leaves, in (0, 1) (2.5.4)
-    /// Further attempts for contacts that no candidate corrects: the first for those deeper than 1.5 times the
-    /// threshold, each next one for twice that, so that a deep overlap in a tight pile is spread over its neighbours.
-    /// 0 = none, as in the thesis; 0 to 16.
+    /// Further attempts for contacts that no candidate corrects: the first for those deeper than 1.14 times the
+    /// threshold, then 1.5 times, each next one for twice that, so that a deep overlap in a tight pile is spread over
+    /// its neighbours. 0 = none, as in the thesis; 0 to 16.
     std::int64_t spread_levels = 8;
     /// Detections and corrections of a step, 1 to 100: where a correction displaced a body by more than the threshold,
     /// what it pushed that into is found and corrected in the same step, so often. 1 = once, as in the thesis, and with

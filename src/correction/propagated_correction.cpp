@@ -12,7 +12,12 @@ namespace {
 
 /// Contacts that cannot be corrected are left alone up to this multiple of the threshold: spreading less would keep
 /// resting piles awake.
-constexpr double first_spread = 1.5;
+constexpr double first_spread = 1.14;
+
+/// How deep a contact must be for an attempt to spread it [multiple of the threshold]: 1.14, 1.5, 3, 6, …
+double spreadFrom(std::int64_t level) {
+    return level == 0 ? first_spread : std::ldexp(1.5, static_cast<int>(level - 1));
+}
 
 /// Moves the bodies of a search and wakes them. @return how many
 std::int64_t moveBodies(const Propagation& search, const BodyState& bodies) {
@@ -79,7 +84,7 @@ std::int64_t PropagatedCorrection::push(const ContactsOfBodies& contacts_of, std
         if (!any) break;
         graph_.reset(contacts_of, contacts, bodies, pass.remaining);
         displaced += run(pass, contacts_of, contacts, bodies);
-        pass.limit = std::ldexp(first_spread * threshold, static_cast<int>(level));
+        pass.limit = spreadFrom(level) * threshold;
         pass.remaining = spread_part * pass.limit;
     }
     return displaced;

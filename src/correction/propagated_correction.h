@@ -14,9 +14,9 @@ namespace cairn {
 /// bodies, and whatever that one pushes, so that no other contact gets deeper than a part of the threshold.
 ///
 /// In a tight pile every candidate of a contact can be invalid, which the thesis leaves as it is. Such contacts are
-/// tried again (CorrectionSettings::spread_levels), as far as they are deeper than 1.5, 3, 6, … times the threshold,
-/// with as much overlap allowed to the contacts that are pushed. So one deep overlap becomes several shallow ones,
-/// which later steps can correct. Batches whose bodies are inside many others are loosened instead.
+/// tried again (CorrectionSettings::spread_levels), as far as they are deeper than 1.14, 1.5, 3, 6, … times the
+/// threshold, with as much overlap allowed to the contacts that are pushed. So one deep overlap becomes several shallow
+/// ones, which later steps can correct. Batches whose bodies are inside many others are loosened instead.
 class PropagatedCorrection final : public Correction {
   public:
     CorrectionCounts correct(const BatchView& batch, const ContactsOfBodies& contacts_of, std::span<Contact> contacts,

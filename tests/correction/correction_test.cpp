@@ -64,11 +64,13 @@ TEST(PropagatedCorrection, SpreadsADeepOverlapOverTheContactsAroundIt) {
     for (const Contact& contact : scene.contacts) EXPECT_GE(contact.distance, -4.5);
 }
 
-TEST(PropagatedCorrection, SpreadsNothingBelowOneAndAHalfTimesTheThreshold) {
-    ContactScene scene = wedgedBodies();
-    scene.settings.spread_levels = 8;
-    scene.contacts[1].distance = -1.5;
-    EXPECT_EQ(scene.correct().displaced, 0);
+TEST(PropagatedCorrection, SpreadsNothingUpTo114PercentOfTheThreshold) {
+    for (const auto& [depth, displaced] : {std::pair(1.14, 0), std::pair(1.141, 1)}) {
+        ContactScene scene = wedgedBodies();
+        scene.settings.spread_levels = 8;
+        scene.contacts[1].distance = -depth;
+        EXPECT_EQ(scene.correct().displaced, displaced) << depth;
+    }
 }
 
 TEST(PropagatedCorrection, WakesTheBodiesItMovesAndNoOthers_WakeCondition2) {
