@@ -67,7 +67,7 @@ void packAll(Result& result, const Shape& shape, const char* name, double looses
         for (const std::uint64_t seed : seedsOfFillings(plan, 3)) fraction.add(pack(shape, friction, seed, plan));
         result.absolute(fmt::format("solid fraction of {}", name), "", (loosest + densest) / 2, fraction.mean(),
                         (densest - loosest) / 2 + 0.005, fmt::format("µ = {:g}", friction),
-                        fmt::format("{:g} to {:g}, {}, and 0.005; {}", loosest, densest, range, fraction.text()));
+                        fmt::format("{:g} to {:g} ({}) and 0.005; {}", loosest, densest, range, fraction.text()));
         line.x.push_back(friction);
         line.y.push_back(fraction.mean());
     }
@@ -79,9 +79,9 @@ void packAll(Result& result, const Shape& shape, const char* name, double looses
 
 Result run(const Plan& plan) {
     Result result;
-    packAll(result, Sphere{grain / 2}, "spheres", 0.55, 0.64, "of real grains", plan);
+    packAll(result, Sphere{grain / 2}, "spheres", 0.55, 0.64, "real grains", plan);
     packAll(result, Box{Vec3::Constant(grain)}, "cubes", 0.54, 0.67,
-            "of dice of one plastic, settled in a fluid and vibrated; rougher grains pack looser", plan);
+            "plastic dice, settled in a fluid and vibrated; rougher grains pack looser", plan);
     return result;
 }
 

@@ -62,9 +62,9 @@ function orderText(c: Convergence): string {
   return c.order === null ? c.what : `${c.what} (order ${c.order.toFixed(1)})`;
 }
 
-/** Errors over the time step; what is only rounding is left out. */
+/** Errors over the time step; what is only rounding or does not depend on the time step is left out. */
 function convergenceFigure(c: Case): Figure | null {
-  const falling = c.convergences.filter((one) => one.order !== null);
+  const falling = c.convergences.filter((one) => one.order !== null && Math.abs(one.order) > 0.1);
   if (falling.length === 0) return null;
   return {
     id: `${c.name}/convergence`,
