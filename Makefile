@@ -86,7 +86,7 @@ tidy:
 	@tools/install_packages build develop
 	@cmake --preset release --log-level=WARNING
 	run-clang-tidy -quiet -p build/release -j $(JOBS) "$(CURDIR)/(src|apps)/"
-	cppcheck --quiet --project=build/release/compile_commands.json --file-filter='$(CURDIR)/src/*' \
+	cppcheck --quiet --project=build/release/compile_commands.json --file-filter='src/*' \
 	    --enable=warning,performance,portability --inline-suppr --suppress='*:/usr/*' --error-exitcode=1 -j $(JOBS)
 
 install:

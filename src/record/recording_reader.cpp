@@ -135,6 +135,7 @@ struct RecordingReader::Impl {
 
 RecordingReader::RecordingReader(const std::filesystem::path& file) {
     const hdf5::QuietErrors quiet;
+    // cppcheck-suppress useInitializationList ; the errors must be quiet before
     impl_ = std::make_unique<Impl>(file);
 }
 

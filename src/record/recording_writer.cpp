@@ -149,6 +149,7 @@ struct RecordingWriter::Impl {
 RecordingWriter::RecordingWriter(const std::filesystem::path& file, const Scene& scene, const Settings& settings,
                                  std::size_t hashes_per_frame) {
     const hdf5::QuietErrors quiet;
+    // cppcheck-suppress useInitializationList ; the errors must be quiet before
     impl_ = std::make_unique<Impl>(file, scene, settings, hashes_per_frame);
 }
 

@@ -74,7 +74,7 @@ class AcceleratedSweepsResolution final : public Resolution {
             .limit = sweepLimit(batch.contacts.size(), moving, settings),
             .may_leap = !moving && !framed && local_.dynamic_bodies <= static_cast<std::size_t>(settings.direct_limit)};
         const bool wide = !framed && !sweeps.may_leap && batch.contacts.size() >= wide_contacts;
-        Sweeper& sweeper = wide ? static_cast<Sweeper&>(wide_) : plain_;
+        Sweeper& sweeper = *(wide ? static_cast<Sweeper*>(&wide_) : &plain_);
         const SweptBatch swept{local_, batch, contacts, bodies, settings, executor, framed};
         sweeper.begin(swept);
         ResolutionCounts counts;

@@ -180,7 +180,8 @@ void PlainSweeper::restart() {
 }
 
 void PlainSweeper::accelerate(double beta, const SweptBatch&) {
-    const auto advance = [beta]<class Vector>(Vector& impulse, const Vector& before, Vector& direction) {
+    const auto advance = [beta](auto& impulse, const auto& before, auto& direction) {
+        using Vector = std::remove_cvref_t<decltype(before)>;
         const Vector change = impulse - before;
         const Vector step = beta * direction;
         impulse += step;

@@ -14,6 +14,7 @@ constexpr std::uint32_t none = UINT32_MAX;
 
 /// Pairs with more contacts are put together as if they had so many.
 constexpr std::size_t most_alike = 16;
+constexpr std::size_t alike_sizes = most_alike + 1;
 
 /// Fewest groups worth a thread of their own.
 constexpr std::size_t group_grain = 24;
@@ -148,8 +149,8 @@ void WideSweeper::arrange(const LocalBatch& local) {
     contact_of_.clear();
     group_begin_.assign(1, 0);
     slot_of_.resize(colours_.order().size());
-    std::array<std::array<Pair, lane_count>, most_alike + 1> waiting;
-    std::array<std::size_t, most_alike + 1> waiting_count{};
+    std::array<std::array<Pair, lane_count>, alike_sizes> waiting;
+    std::array<std::size_t, alike_sizes> waiting_count{};
     for (std::size_t c = 0; c < colours_.colours(); ++c) {
         for (std::size_t p = 0; p < colours_.pairs(c); ++p) {
             const Pair pair{colours_.begin(c, p), colours_.begin(c, p + 1) - colours_.begin(c, p)};
@@ -165,7 +166,7 @@ void WideSweeper::arrange(const LocalBatch& local) {
         }
         std::array<Pair, lane_count> rest;
         std::size_t rest_count = 0;
-        for (std::size_t alike = most_alike + 1; alike-- > 0; waiting_count[alike] = 0) {
+        for (std::size_t alike = alike_sizes; alike-- > 0; waiting_count[alike] = 0) {
             for (std::size_t i = 0; i < waiting_count[alike]; ++i) {
                 rest[rest_count++] = waiting[alike][i];
                 if (rest_count < lane_count) continue;

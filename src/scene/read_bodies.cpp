@@ -18,7 +18,7 @@ std::string knownMaterials(const SceneReading& reading) {
 }
 
 /// @param inherited values of the members that are not given
-PairProperties readPair(const JsonNode& node, PairProperties inherited) {
+PairProperties readPair(const JsonNode& node, const PairProperties& inherited) {
     node.expectKeys({"restitution", "static_friction", "kinetic_friction", "rolling_friction", "spinning_friction"});
     PairProperties pair = inherited;
     if (const auto value = node.find("restitution")) {

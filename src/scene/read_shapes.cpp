@@ -91,8 +91,8 @@ Shape readShape(const JsonNode& node) {
     if (type == "box") return readBox(node);
     if (type == "plane") return readPlane(node);
     if (type == "hull") return readHull(node);
-    if (type == "compound") return readCompound(node);
-    type_node.refuse(shape_types);
+    if (type != "compound") type_node.refuse(shape_types);
+    return readCompound(node);
 }
 
 Quat readOrientation(const JsonNode& node) {
