@@ -104,6 +104,17 @@ class Runner {
     std::vector<std::uint64_t> hashes_;  ///< of the last simulation step
 };
 
+/// Fewer time steps per second than this the thesis does not allow.
+constexpr double thesis_steps_per_second = 180;
+
+void warnOfLongSteps(const Settings& settings) {
+    if (settings.steps_per_second >= thesis_steps_per_second) return;
+    printLine(stderr,
+              fmt::format("cairn: warning: {} time steps per second are fewer than {}: bodies overlap more, and "
+                          "fast ones may pass through each other",
+                          settings.steps_per_second, thesis_steps_per_second));
+}
+
 }  // namespace
 
 void addOutputOptions(CLI::App& command, OutputOptions& options) {
@@ -140,7 +151,9 @@ double requireDuration(double duration) {
 }
 
 int runToTheEnd(SceneRun run, const OutputOptions& options, const std::filesystem::path& usual_checkpoint) {
+    const Settings settings = run.world().settings();
     Runner runner(std::move(run), options, usual_checkpoint);
+    warnOfLongSteps(settings);
     noteInterrupts();
     const auto failure = runner.simulate(options.quiet || options.json ? Progress::Wish::hide : Progress::Wish::show);
     const Report report = runner.report();

@@ -57,6 +57,19 @@ TEST_F(CommandLine, jsonIsOneObjectWithAllKeys) {
     EXPECT_EQ(hash.find_first_not_of("0123456789abcdef"), std::string::npos) << hash;
 }
 
+TEST_F(CommandLine, timeStepsBeyondTheThesisAreWarnedOf) {
+    const auto errorsAt = [&](const char* steps_per_second) {
+        const Finished done =
+            cairn({"run", "tower:2", "--steps-per-second", steps_per_second, "--duration", "0.1", "--json"});
+        EXPECT_EQ(done.code, 0) << done.error;
+        EXPECT_TRUE(json::accept(done.out)) << done.out;
+        return done.error;
+    };
+    EXPECT_NE(errorsAt("30").find("warning: 30 time steps per second are fewer than 180"), std::string::npos);
+    EXPECT_NE(errorsAt("150").find("warning: 150 time steps"), std::string::npos);
+    EXPECT_EQ(errorsAt("180"), "");
+}
+
 /// Copies a recording with one number changed: where body 2 was in frame 10, which ends with time step 80.
 void forge(const std::filesystem::path& from, const std::filesystem::path& to) {
     const RecordingReader reader(from);
