@@ -101,7 +101,7 @@ void HashGrids::enterBlocks(const BroadPhaseInput& input) {
         if (on_level < 0) continue;
         const auto own_level = static_cast<std::size_t>(on_level);
         const CellCoordinates at = cellOf(input.bounds[i].lower, levels_.edgeInv(own_level));
-        const std::uint32_t block = table_.enter({at.x >> 2, at.y >> 2, at.z >> 2, level[i]});
+        const std::uint32_t block = table_.enter({at.x >> 2, at.y >> 2, at.z >> 2, on_level});
         const auto position = static_cast<unsigned>((at.x & 3) + 4 * (at.y & 3) + 16 * (at.z & 3));
         table_.blocks()[block].occupied |= std::uint64_t{1} << position;
         const std::uint32_t moved = input.isStill(i) ? 0 : 1;

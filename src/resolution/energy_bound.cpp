@@ -38,8 +38,12 @@ class EnergyBound final : public Resolution {
 
   private:
     static bool isDriven(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
-        return std::ranges::any_of(batch.joints, [](const JointBlock& joint) { return joint.bounds > 0; }) ||
-               !hasStillSupports(batch, contacts, bodies);
+        return std::ranges::any_of(batch.joints, hasMotor) || !hasStillSupports(batch, contacts, bodies);
+    }
+
+    static bool hasMotor(const JointBlock& joint) {
+        return std::any_of(joint.bound.begin(), joint.bound.begin() + joint.bounds,
+                           [](const BoundRow& bound) { return bound.is_motor; });
     }
 
     static bool hasHistory(const BatchView& batch, std::span<const Contact> contacts) {
@@ -77,6 +81,7 @@ class EnergyBound final : public Resolution {
         }
         for (JointBlock& joint : batch.joints) {
             for (double& impulse : joint.impulse) impulse *= part;
+            for (std::uint32_t i = 0; i < joint.bounds; ++i) joint.bound[i].impulse *= part;
         }
     }
 
