@@ -1,5 +1,6 @@
 #include "resolution/batch_joints.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +13,10 @@ namespace {
 /// Where joints block all motion at a contact along a direction, rounding leaves about this part of what the bodies
 /// would do without joints. @note far above one rounding, since factorising a mechanism takes many
 constexpr double blocked = 1e-12;
+/// What a contact yields along a direction counts as nothing below this multiple of that, and below this part of what
+/// it yields along another one: the impulses that a velocity along it asks for would be of rounding.
+constexpr double far_from_blocked = 1e5;
+constexpr double hardly = 1e-7;
 
 /// Most passes over the bounds of a batch at a time.
 constexpr int most_passes = 50;
@@ -193,7 +198,7 @@ Twist BatchJoints::relativeChange(const ContactFrame& contact) const {
             change_a.w - change_b.w};
 }
 
-Symmetric3 BatchJoints::collisionMatrix(const ContactFrame& contact, std::span<const LocalBody> bodies) {
+JointedCollision BatchJoints::collisionMatrix(const ContactFrame& contact, std::span<const LocalBody> bodies) {
     Mat3 k;
     for (Eigen::Index i = 0; i < 3; ++i) {
         respond(contact, contact.basis.col(i), Vec3::Zero(), bodies);
@@ -202,7 +207,9 @@ Symmetric3 BatchJoints::collisionMatrix(const ContactFrame& contact, std::span<c
     const Symmetric3 unjointed = cairn::collisionMatrix(contact, bodies[contact.a], bodies[contact.b]);
     const double rest = blocked * std::max({unjointed.xx, unjointed.yy, unjointed.zz});
     if (!(k(0, 0) > rest)) return {};
-    return Symmetric3::from(0.5 * (k + k.transpose()) + rest * Mat3::Identity());
+    const Mat3 symmetric = 0.5 * (k + k.transpose()) + rest * Mat3::Identity();
+    const Vec3 yields = Eigen::SelfAdjointEigenSolver<Mat3>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
+    return {Symmetric3::from(symmetric), yields[0] < std::max(far_from_blocked * rest, hardly * yields[2])};
 }
 
 Mat6 BatchJoints::wrenchMatrix(const ContactFrame& contact, std::span<const LocalBody> bodies) {

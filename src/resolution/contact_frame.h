@@ -35,6 +35,7 @@ struct alignas(64) ContactFrame {
     std::uint32_t a = 0;                   ///< index of A's LocalBody
     std::uint32_t b = 0;                   ///< index of B's LocalBody
     std::uint32_t rolling = rolls_freely;  ///< index of its RollingContact
+    bool is_blocked = false;               ///< joints block all motion here in some direction
 
     static constexpr std::uint32_t rolls_freely = UINT32_MAX;
 };
@@ -82,6 +83,7 @@ inline Symmetric3 collisionMatrix(const ContactFrame& frame, const LocalBody& a,
 /// (masses beyond what doubles can divide) the contact keeps its normal part only, and where not even that exists it
 /// cannot be resolved: both parts become 0.
 inline void setCollisionMatrix(ContactFrame& frame, const Symmetric3& k) {
+    frame.is_blocked = false;
     frame.k_row = Vec3(k.xx, k.xy, k.xz);
     frame.k_inv = inverse(k);
     if (isFinite(frame.k_inv) && frame.k_inv.xx > 0) return;

@@ -28,11 +28,21 @@ inline Vec3 slidingImpulse(const ContactFrame& frame, const Vec3& stick, double 
     return {normal, lambda * stick[1], lambda * stick[2]};
 }
 
+/// The impulse that stops a contact which joints keep from moving in some directions, and then parts it. The velocities
+/// of a bounce without sliding are none that such a contact can have; asked for at once, they would be answered with
+/// impulses of any size in the blocked directions.
+/// @param velocity and e as for newtonImpulse()
+inline Vec3 blockedImpulse(const ContactFrame& frame, const Vec3& velocity, double e) {
+    Vec3 j = frame.k_inv * -velocity;
+    j[0] -= e * velocity[0] / frame.k_row[0];
+    return j;
+}
+
 /// The impulse on A that resolves a closing contact [N·s, contact coordinates]; B gets the opposite.
 /// @param velocity ϑA − ϑB [m/s, contact coordinates], velocity[0] < 0 @param e restitution @source thesis Algorithm 8
 inline Vec3 newtonImpulse(const ContactFrame& frame, const Vec3& velocity, double e) {
     const Vec3 target(-(1 + e) * velocity[0], -velocity[1], -velocity[2]);
-    const Vec3 j = frame.k_inv * target;
+    const Vec3 j = frame.is_blocked ? blockedImpulse(frame, velocity, e) : Vec3(frame.k_inv * target);
     // The thesis's cone test (3.5.4) ignores the sign of j0. A j0 that pulls, possible when a fast sliding contact is
     // strongly coupled, counts as sliding here, whose impulse always pushes.
     const double cone = frame.static_friction * j[0];

@@ -79,12 +79,14 @@ class LocalBatch {
 
     bool isFixed(std::uint32_t body) const { return body >= dynamic_bodies; }
     Vec3 velocityOf(const ContactFrame& c) const { return relativeVelocity(c, bodies[c.a], bodies[c.b]); }
-    /// With the joints holding [1/kg, contact coordinates].
-    Symmetric3 collisionMatrixOf(const ContactFrame& c) {
-        return joints.holds(c) ? joints.collisionMatrix(c, bodies) : collisionMatrix(c, bodies[c.a], bodies[c.b]);
-    }
     void updateCollisionMatrixOf(ContactFrame& c) {
-        setCollisionMatrix(c, collisionMatrixOf(c));
+        if (joints.holds(c)) {
+            const JointedCollision collision = joints.collisionMatrix(c, bodies);
+            setCollisionMatrix(c, collision.k);
+            c.is_blocked = collision.is_blocked;
+        } else {
+            setCollisionMatrix(c, collisionMatrix(c, bodies[c.a], bodies[c.b]));
+        }
         if (c.rolling != ContactFrame::rolls_freely) updateRolling(c);
     }
     /// Applies an impulse, on A, at a contact to its bodies and all that joints tie to them.

@@ -269,6 +269,25 @@ TEST(Joints, AClosedLoopMovesThoughItsRowsAreMoreThanItsBodiesCanDo) {
     EXPECT_NEAR(w.world.pose(bar).orientation.angularDistance(Quat::Identity()), 0, 1e-7);
 }
 
+/// What a hinge keeps from moving in all directions but one cannot bounce and stop its sliding at once.
+TEST(Joints, AHingedBallBouncesWithItsRestitutionHoweverAskewItStrikes) {
+    for (const ResolutionKind resolution : {ResolutionKind::impulse_queue, ResolutionKind::sweep}) {
+        for (const double angle : {0.0, 0.5, 1.0, 1.4}) {
+            Workshop shop(Vec3::Zero(), precise(resolution));
+            shop.world.setDefaultPairProperties({0.5, 0.3, 0.3});
+            const BodyId ball = shop.add(Sphere{0.1}, 1, Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1));
+            shop.world.addJoint({.kind = JointKind::hinge, .a = ball, .anchor = Vec3::Zero(), .axis = Vec3::UnitZ()});
+            const Vec3 to_other(std::sin(angle), std::cos(angle), 0);
+            shop.world.addBody({.shape = Sphere{0.1},
+                                .material = shop.steel,
+                                .pose = {Vec3(1, 0, 0) + 0.2001 * to_other, Quat::Identity()},
+                                .fixed = true});
+            shop.run(0.01);
+            EXPECT_NEAR(shop.world.angularVelocity(ball).z(), -0.5, 1e-6) << angle;
+        }
+    }
+}
+
 TEST(Joints, BallsOnHingesBetweenCradleRodsKeepTheirEnergyForALongTime) {
     Settings settings = precise();
     settings.correction.correction = CorrectionKind::none;

@@ -123,7 +123,7 @@ TEST(EnergeticRestitution, FollowsTheSlidingAsItTurns) {
         const std::array<std::uint32_t, 1> indices = {0};
         batch.gather({bodies, indices}, pile.contacts, pile.state());
         const ContactFrame& frame = batch.contacts[0];
-        const Mat3 k = batch.collisionMatrixOf(frame).toMatrix();
+        const Mat3 k = collisionMatrix(frame, batch.bodies[frame.a], batch.bodies[frame.b]).toMatrix();
         const Vec3 before = batch.velocityOf(frame);
         const double dp = -before[0] / k(0, 0) * 1e-6;
         Vec3 j = Vec3::Zero();
