@@ -54,4 +54,16 @@ inline Vec3 toVec3(const Triple1& u) {
     return {u.x(), u.y(), u.z()};
 }
 
+/// mᵀ·u
+inline Triple1 transposedProduct(const Mat3& m, const Triple1& u) {
+    const auto row = [&](Eigen::Index i) { return m(0, i) * u.x() + m(1, i) * u.y() + m(2, i) * u.z(); };
+    return {row(0), row(1), row(2)};
+}
+
+/// m·u, bit for bit as Eigen's with a Vec3, which adds up the last row in another order.
+inline Triple1 product(const Mat3& m, const Triple1& u) {
+    const auto row = [&](Eigen::Index i) { return m(i, 0) * u.x() + m(i, 1) * u.y() + m(i, 2) * u.z(); };
+    return {row(0), row(1), m(2, 0) * u.x() + (m(2, 1) * u.y() + m(2, 2) * u.z())};
+}
+
 }  // namespace cairn

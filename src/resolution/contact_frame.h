@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "body/contact.h"
-#include "math/by_component.h"
 #include "resolution/symmetric3.h"
 
 namespace cairn {
@@ -101,10 +100,9 @@ inline bool isResolvable(const ContactFrame& frame) {
 
 /// ϑA − ϑB: velocity of A relative to B at the contact [m/s, contact coordinates]. @source thesis (3.4.1), (3.4.2)
 inline Vec3 relativeVelocity(const ContactFrame& frame, const LocalBody& a, const LocalBody& b) {
-    namespace by = by_component;
-    const Vec3 at_a = by::sum(a.v, by::cross(a.w, frame.r_a));
-    const Vec3 at_b = by::sum(b.v, by::cross(b.w, frame.r_b));
-    return by::transposedProduct(frame.basis, by::difference(at_a, at_b));
+    const Triple1 at_a = Triple1(a.v) + Triple1(a.w).cross(Triple1(frame.r_a));
+    const Triple1 at_b = Triple1(b.v) + Triple1(b.w).cross(Triple1(frame.r_b));
+    return toVec3(transposedProduct(frame.basis, at_a - at_b));
 }
 
 }  // namespace cairn

@@ -64,12 +64,13 @@ struct VelocityChange {
 
 /// @param r from the centre of mass to the contact [m, W] @param impulse on this body [N·s, W] @source thesis (3.4.4)
 inline VelocityChange velocityChange(const LocalBody& body, const Vec3& r, const Vec3& impulse) {
-    return {by_component::product(body.mass_inv, impulse), body.inertia_inv * by_component::cross(r, impulse)};
+    const Triple1 j(impulse);
+    return {toVec3(body.mass_inv * j), toVec3(body.inertia_inv * Triple1(r).cross(j))};
 }
 
 inline void apply(const VelocityChange& change, LocalBody& body) {
-    by_component::add(change.v, body.v);
-    by_component::add(change.w, body.w);
+    body.v = toVec3(Triple1(body.v) + Triple1(change.v));
+    body.w = toVec3(Triple1(body.w) + Triple1(change.w));
     body.struck = 1;
 }
 
@@ -85,10 +86,10 @@ struct ContactChange {
 
 /// Applies an impulse to both bodies and adds it to the contact's sum. @param j on A [N·s, contact coordinates]
 inline ContactChange applyImpulse(ContactFrame& frame, const Vec3& j, LocalBody& a, LocalBody& b) {
-    const Vec3 impulse = by_component::product(frame.basis, j);
-    by_component::add(impulse, frame.impulse);
-    const ContactChange change{velocityChange(a, frame.r_a, impulse),
-                               velocityChange(b, frame.r_b, by_component::negative(impulse))};
+    const Triple1 pushed = product(frame.basis, Triple1(j));
+    frame.impulse = toVec3(Triple1(frame.impulse) + pushed);
+    const Vec3 impulse = toVec3(pushed);
+    const ContactChange change{velocityChange(a, frame.r_a, impulse), velocityChange(b, frame.r_b, -impulse)};
     apply(change.a, a);
     apply(change.b, b);
     return change;

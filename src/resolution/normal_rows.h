@@ -42,7 +42,7 @@ class NormalRows {
     }
 
   private:
-    /// Gets the change in registers: what was written one by one just now would be read in pairs here (by_component.h).
+    /// Gets the change in registers: what was written one by one just now would be read in pairs here (triple.h).
     void update(std::uint32_t body, double v_x, double v_y, double v_z, double w_x, double w_y, double w_z,
                 double* delta) const;
     void count();

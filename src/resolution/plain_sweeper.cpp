@@ -14,6 +14,18 @@ namespace {
     return impulse.squaredNorm() < std::numeric_limits<double>::infinity();
 }
 
+/// Calls use(a, b) with copies of the bodies at some ends, and writes them back.
+template <class Use>
+[[gnu::always_inline]] inline void withBodies(const ContactEnds& ends, LocalBatch& local, const Use& use) {
+    LocalBody& a = local.bodies[ends.a];
+    LocalBody& b = local.bodies[ends.b];
+    SweptBody<double> swept_a = read(a);
+    SweptBody<double> swept_b = read(b);
+    use(swept_a, swept_b);
+    write(swept_a, a);
+    write(swept_b, b);
+}
+
 [[gnu::always_inline]] inline void visit(SweptContact& contact, SweptBody<double>& a, SweptBody<double>& b) {
     const Triple1 impulse = projectedImpulse(contact, relativeVelocity(contact, a, b));
     if (!isFinite(impulse) || !isResolvable(contact)) return;
@@ -51,13 +63,7 @@ void PlainSweeper::begin(const SweptBatch& swept) {
 template <class Visit>
 void PlainSweeper::visitPair(std::size_t pair, LocalBatch& local, const Visit& visit) {
     const std::size_t begin = pair_begin_[pair];
-    LocalBody& a = local.bodies[contacts_[begin].a];
-    LocalBody& b = local.bodies[contacts_[begin].b];
-    SweptBody<double> swept_a = read(a);
-    SweptBody<double> swept_b = read(b);
-    visit(begin, pair_begin_[pair + 1], swept_a, swept_b);
-    write(swept_a, a);
-    write(swept_b, b);
+    withBodies(contacts_[begin], local, [&](auto& a, auto& b) { visit(begin, pair_begin_[pair + 1], a, b); });
 }
 
 void PlainSweeper::beginContact(std::size_t i, const SweptBatch& swept) {
@@ -140,11 +146,7 @@ void PlainSweeper::visitRolling(SweptContact& contact, const ContactFrame& frame
 
 void PlainSweeper::setImpulse(std::size_t contact, const Triple1& impulse, LocalBatch& local) {
     SweptContact& s = contacts_[contact];
-    SweptBody<double> a = read(local.bodies[s.a]);
-    SweptBody<double> b = read(local.bodies[s.b]);
-    push(s, impulse - s.impulse, a, b);
-    write(a, local.bodies[s.a]);
-    write(b, local.bodies[s.b]);
+    withBodies(s, local, [&](auto& a, auto& b) { push(s, impulse - s.impulse, a, b); });
     s.impulse = impulse;
 }
 

@@ -70,13 +70,13 @@ void findBounds(const BodyStorage& bodies, double margin, const Executor& execut
 /// Pairs of bodies that are found already are those that they were.
 void findPairs(const BodyStorage& bodies, BroadPhase& broad_phase, const Executor& executor, StepData& data) {
     broad_phase.findPairs({.kind = bodies.kind, .bounds = data.bounds, .still = data.still.found}, executor,
-                          data.moved_pairs);
-    data.still_pairs.clear();
+                          data.new_pairs);
+    data.found_pairs.clear();
     for (const BodyPair& pair : data.pairs) {
-        if (areFound(data.still, pair)) data.still_pairs.push_back(pair);
+        if (areFound(data.still, pair)) data.found_pairs.push_back(pair);
     }
-    data.pairs.resize(data.moved_pairs.size() + data.still_pairs.size());
-    std::ranges::merge(data.moved_pairs, data.still_pairs, data.pairs.begin());
+    data.pairs.resize(data.new_pairs.size() + data.found_pairs.size());
+    std::ranges::merge(data.new_pairs, data.found_pairs, data.pairs.begin());
 }
 
 /// Contacts of one pair of bodies closer to each other than this part of the smaller body are one, if their directions

@@ -75,11 +75,11 @@ struct FoundContact {
 
 /// The arrays that one stage leaves to the next; nothing else travels between stages. Named with their producer.
 struct StepData {
-    std::vector<Bounds> bounds;                              ///< detection: [slots] grown by the contact margin [m, W]
-    std::vector<BodyPair> pairs;                             ///< detection: near pairs, sorted
-    std::vector<BodyPair> moved_pairs;                       ///< detection: those of which a body moved
-    std::vector<BodyPair> still_pairs;                       ///< detection: the others
-    StillBodies still;                                       ///< detection: which bodies are where they were
+    std::vector<Bounds> bounds;         ///< detection: [slots] grown by the contact margin [m, W]
+    std::vector<BodyPair> pairs;        ///< detection: near pairs, sorted
+    std::vector<BodyPair> new_pairs;    ///< detection: those with a body whose contacts are not known yet
+    std::vector<BodyPair> found_pairs;  ///< detection: the others
+    StillBodies still;                  ///< detection: which bodies are where they were
     std::vector<std::vector<FoundContact>> thread_contacts;  ///< detection: [threads], joined into contacts
     std::vector<Contact> contacts;        ///< detection, changed by correction and resolution: sorted by (a, b)
     ContactsOfBodies contacts_of;         ///< batches: [slots] contact indices

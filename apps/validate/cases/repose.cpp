@@ -90,8 +90,7 @@ const Case repose{
     "the angle rises with µ and with rolling friction",
     "450 spheres of 10 cm poured onto a tray of 10 × 10 diameters with a rim of one; the angle is that of a "
     "pyramid over the outer width of the rim with the volume of the grains above it at a solid fraction of 0.58; the "
-    "mean of three "
-    "heaps each.",
+    "mean of three heaps each.",
     run};
 
 }  // namespace cairn::validation
