@@ -33,10 +33,11 @@ struct BlockKey {
 struct Block {
     BlockKey key;
     std::uint64_t occupied = 0;    ///< bit per position
+    std::uint64_t moved = 0;       ///< bit per position: it has a body that is not still
     std::uint32_t first_cell = 0;  ///< number of the cell at the lowest occupied position
-    std::uint32_t moved = 0;       ///< bodies that are not still
 
     bool has(unsigned position) const { return (occupied >> position & 1) != 0; }
+    bool hasMoved(unsigned position) const { return (moved >> position & 1) != 0; }
     /// @pre has(position)
     std::uint32_t cell(unsigned position) const {
         const std::uint64_t below = occupied & ((std::uint64_t{1} << position) - 1);

@@ -105,7 +105,7 @@ void HashGrids::enterBlocks(const BroadPhaseInput& input) {
         const auto position = static_cast<unsigned>((at.x & 3) + 4 * (at.y & 3) + 16 * (at.z & 3));
         table_.blocks()[block].occupied |= std::uint64_t{1} << position;
         const std::uint32_t moved = input.isStill(i) ? 0 : 1;
-        table_.blocks()[block].moved += moved;
+        table_.blocks()[block].moved |= std::uint64_t{moved} << position;
         moved_[own_level] += moved;
         address_[i] = {block, position};
     }
@@ -195,14 +195,15 @@ void HashGrids::searchLevel(const Block& block, PairBuffer& found) const {
     if (isStillAround(block, around)) return;
     const Cell* cell = &cells_[block.first_cell];
     forEachPosition(block.occupied, [&](unsigned position) {
+        const bool moved = block.hasMoved(position);
         Neighbours neighbours;
         for (const RelativeCell& neighbour : half_neighbourhood[position]) {
             const Block* const other = around[neighbour.block];
-            if (other != nullptr && other->has(neighbour.position)) {
+            if (other != nullptr && other->has(neighbour.position) && (moved || other->hasMoved(neighbour.position))) {
                 neighbours.add(cells_[other->cell(neighbour.position)]);
             }
         }
-        searchCell(*cell, neighbours, found);
+        if (moved || neighbours.all_count > 0) searchCell(*cell, neighbours, found);
         ++cell;
     });
 }
@@ -260,7 +261,7 @@ void HashGrids::searchCoarserBlock(const Block& block, const Bounds& around, con
     forEachPosition(coarse.occupied & positions, [&](unsigned position) {
         const Cell& other = cells_[coarse.cell(position)];
         for (std::uint32_t i = other.begin; i < other.end; ++i) {
-            if (overlap(entries_[i].bounds, around) == 0 || (block.moved | entries_[i].moved) == 0) continue;
+            if (overlap(entries_[i].bounds, around) == 0 || (block.moved == 0 && entries_[i].moved == 0)) continue;
             if (i < other.fixed_begin) {
                 testRow(entries_[i], all, found);
                 continue;

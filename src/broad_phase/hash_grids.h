@@ -19,7 +19,8 @@ namespace cairn {
 /// cell(lower₁) − 1 ≤ cell(lower₂) ≤ cell(upper₁), all in the cells of the coarser level 2. So each cell is compared
 /// with one half of its neighbours and with the few cells of coarser levels around it; every pair comes up once.
 ///
-/// Two bodies that are both still are not compared: blocks without a moved body in or around them are passed over.
+/// Two bodies that are both still are not compared: blocks and cells without a moved body in or around them are passed
+/// over.
 ///
 /// The hash finds blocks of 4 × 4 × 4 cells, so that most steps to a neighbour need no hash and neighbours lie close
 /// in memory. The bodies of a cell are stored side by side, dynamic ones first, so that fixed ones never meet each

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "math/arrays.h"
+
 namespace cairn {
 
 namespace {
@@ -60,7 +62,8 @@ void ContactMemory::recallPair(const BodyStorage& bodies, std::span<Contact> con
 }
 
 void ContactMemory::recall(const BodyStorage& bodies, std::span<const std::uint8_t> still, std::span<Contact> contacts,
-                           const Executor& executor) const {
+                           const Executor& executor) {
+    same_.assign(contacts.size(), 0);
     executor.forBlocks(contacts.size(), [&](std::size_t begin, std::size_t end, int) {
         // The pair that a block's border cuts belongs to the block in which it begins.
         while (begin > 0 && begin < end && isSamePair(contacts[begin - 1], contacts[begin])) ++begin;
@@ -74,7 +77,9 @@ void ContactMemory::recall(const BodyStorage& bodies, std::span<const std::uint8
             const auto candidates = entriesOf(contacts[begin].a, contacts[begin].b, cursor);
             const bool same = (still[contacts[begin].a] & still[contacts[begin].b]) != 0;
             if (same && candidates.size() == last - begin) {
+                const bool in_place = candidates.data() - entries_.data() == static_cast<std::ptrdiff_t>(begin);
                 for (std::size_t i = begin; i < last; ++i) {
+                    same_[i] = in_place ? 1 : 0;
                     contacts[i].last_impulse = candidates[i - begin].impulse;
                     contacts[i].reference_impulse = candidates[i - begin].reference_impulse;
                 }
@@ -86,11 +91,18 @@ void ContactMemory::recall(const BodyStorage& bodies, std::span<const std::uint8
     });
 }
 
-void ContactMemory::store(const BodyStorage& bodies, std::span<const Contact> contacts, const Executor& executor) {
-    entries_.resize(contacts.size());
+void ContactMemory::store(const BodyStorage& bodies, std::span<const std::uint8_t> unmoved,
+                          std::span<const Contact> contacts, const Executor& executor) {
+    resizeTightly(entries_, contacts.size());
+    same_.resize(contacts.size(), 0);
     executor.forBlocks(contacts.size(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             const Contact& contact = contacts[i];
+            if ((same_[i] & unmoved[contact.a] & unmoved[contact.b]) != 0) {
+                entries_[i].impulse = contact.impulse;
+                entries_[i].reference_impulse = contact.reference_impulse;
+                continue;
+            }
             entries_[i] = {contact.a,
                            contact.b,
                            placeOn(bodies, contact.a, contact.point),

@@ -21,9 +21,11 @@ class ContactMemory {
     /// had
     /// @param contacts sorted by (a, b)
     void recall(const BodyStorage& bodies, std::span<const std::uint8_t> still, std::span<Contact> contacts,
-                const Executor& executor) const;
-    /// Replaces the memory. @param contacts sorted by (a, b), with the impulses they ended with
-    void store(const BodyStorage& bodies, std::span<const Contact> contacts, const Executor& executor);
+                const Executor& executor);
+    /// Replaces the memory. @param contacts those of the last recall(), with the impulses they ended with
+    /// @param unmoved [slots] 1 = the body has been where it is since the last store()
+    void store(const BodyStorage& bodies, std::span<const std::uint8_t> unmoved, std::span<const Contact> contacts,
+               const Executor& executor);
     /// Forgets the contacts of a slot, whose body is removed.
     void forget(BodyIndex body);
     void clear() { entries_.clear(); }
@@ -44,7 +46,8 @@ class ContactMemory {
     static void recallPair(const BodyStorage& bodies, std::span<Contact> contacts, std::span<const Entry> candidates);
     std::span<const Entry> entriesOf(BodyIndex a, BodyIndex b, std::size_t& cursor) const;
 
-    std::vector<Entry> entries_;  ///< sorted by (a, b)
+    std::vector<Entry> entries_;      ///< sorted by (a, b)
+    std::vector<std::uint8_t> same_;  ///< [contacts] 1 = the entry in its place is of the same contact, which is still
 };
 
 }  // namespace cairn

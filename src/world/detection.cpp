@@ -239,9 +239,12 @@ bool detectDisplaced(const BodyStorage& bodies, const MaterialTable& materials, 
 }
 
 void forgetDisplaced(const BodyStorage& bodies, StillBodies& still) {
+    still.unmoved = still.still;
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         StillBodies::Place& place = still.places[i];
-        if (place.position != bodies.position[i]) place.kind = BodyKind::hole;
+        if (place.position == bodies.position[i]) continue;
+        place.kind = BodyKind::hole;
+        still.unmoved[i] = 0;
     }
 }
 

@@ -3,16 +3,20 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace cairn {
 
 namespace {
 
+/// False for what is not a number, too: comparisons with it are false.
+bool isWithin(const Vec3& u, double limit) {
+    return std::abs(u.x()) <= limit && std::abs(u.y()) <= limit && std::abs(u.z()) <= limit;
+}
+
 bool isSound(const BodyStorage& bodies, std::size_t i) {
-    // Comparisons with NaN are false, so this also catches what is not a number.
-    return bodies.v[i].cwiseAbs().maxCoeff() <= speed_limit && bodies.v[i].allFinite() && bodies.w[i].allFinite() &&
-           bodies.w[i].cwiseAbs().maxCoeff() <= speed_limit && bodies.position[i].allFinite() &&
-           bodies.position[i].cwiseAbs().maxCoeff() <= distance_limit && bodies.orientation[i].coeffs().allFinite();
+    return isWithin(bodies.v[i], speed_limit) && isWithin(bodies.w[i], speed_limit) &&
+           isWithin(bodies.position[i], distance_limit) && std::isfinite(bodies.orientation[i].coeffs().sum());
 }
 
 std::string describe(const BodyStorage& bodies, std::size_t i) {

@@ -186,7 +186,7 @@ void resolveStage(WorldState& world) {
     for (std::size_t i = 0; i < shared; ++i) resolve(data.schedule[i], 0, world.executor);
     const Executor alone;
     forBatches(data, shared, world.executor, [&](std::uint32_t batch, int thread) { resolve(batch, thread, alone); });
-    if (remembers) world.memory.store(world.bodies, data.contacts, world.executor);
+    if (remembers) world.memory.store(world.bodies, data.still.unmoved, data.contacts, world.executor);
     finishJoints(world);
     quarantine(world);
     measureIfAsked(world, Measured::resolution);

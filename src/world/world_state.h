@@ -57,11 +57,12 @@ struct StillBodies {
         std::uint32_t generation = 0;
         BodyKind kind = BodyKind::hole;  ///< hole = unknown
     };
-    std::vector<Place> places;        ///< [slots] at the last detection
-    std::vector<std::uint8_t> still;  ///< [slots] 1 = at the same place as at the last step's detection
-    std::vector<std::uint8_t> found;  ///< [slots] 1 = contacts with others of these are known already
-    double margin = 0;                ///< contact margin of the last detection [m]
-    bool all_tested = false;          ///< the last detection tested every near pair: joints kept none apart
+    std::vector<Place> places;          ///< [slots] at the last detection
+    std::vector<std::uint8_t> still;    ///< [slots] 1 = at the same place as at the last step's detection
+    std::vector<std::uint8_t> found;    ///< [slots] 1 = contacts with others of these are known already
+    std::vector<std::uint8_t> unmoved;  ///< [slots] 1 = still, and left there by the correction
+    double margin = 0;                  ///< contact margin of the last detection [m]
+    bool all_tested = false;            ///< the last detection tested every near pair: joints kept none apart
 };
 
 /// What the detection finds of a contact.

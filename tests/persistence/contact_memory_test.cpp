@@ -38,7 +38,7 @@ TEST(ContactMemory, ContactsAreRecognisedByTheirPlaceAlsoOnTurnedAndMovedBodies)
     BodyStorage bodies = threeBodies();
     ContactMemory memory;
     memory.store(
-        bodies,
+        bodies, all_moved,
         std::vector{contactAt(0, 1, Vec3(1, 0.3, 0), Vec3(1, 0, 0)), contactAt(0, 1, Vec3(1, -0.3, 0), Vec3(2, 0, 0)),
                     contactAt(1, 2, Vec3(3, 0, 0), Vec3(3, 0, 0))},
         one_thread);
@@ -61,22 +61,42 @@ TEST(ContactMemory, BodiesThatDidNotMoveKeepTheImpulsesInTheirOrder) {
     const std::vector last = {contactAt(0, 1, Vec3(1, 0.3, 0), Vec3(1, 0, 0)),
                               contactAt(0, 1, Vec3(1, -0.3, 0), Vec3(2, 0, 0)),
                               contactAt(1, 2, Vec3(3, 0, 0), Vec3(3, 0, 0))};
-    memory.store(bodies, last, one_thread);
+    memory.store(bodies, all_moved, last, one_thread);
     std::vector<Contact> now = last;
     memory.recall(bodies, std::vector<std::uint8_t>{1, 1, 0}, now, one_thread);
     for (std::size_t i = 0; i < now.size(); ++i) EXPECT_EQ(now[i].last_impulse, last[i].impulse);
 }
 
+TEST(ContactMemory, BodiesThatStayedHaveTheirLatestImpulsesRemembered) {
+    BodyStorage bodies = threeBodies();
+    ContactMemory memory;
+    std::vector contacts = {contactAt(0, 1, Vec3(1, 0, 0), Vec3(1, 0, 0)),
+                            contactAt(1, 2, Vec3(3, 0, 0), Vec3(2, 0, 0))};
+    memory.store(bodies, all_moved, contacts, one_thread);
+    const std::vector<std::uint8_t> still = {1, 1, 1};
+    memory.recall(bodies, still, contacts, one_thread);
+    contacts[0].impulse.x() = 3;
+    contacts[1].impulse.x() = 4;
+    // The last body was displaced after it had been found where it was.
+    bodies.position[2].y() += 0.3;
+    memory.store(bodies, std::vector<std::uint8_t>{1, 1, 0}, contacts, one_thread);
+    for (BodyIndex b = 0; b < 3; ++b) bodies.position[b].z() += 5;
+    std::vector<Contact> now = {contactAt(0, 1, Vec3(1, 0, 5)), contactAt(1, 2, Vec3(3, 0, 5))};
+    memory.recall(bodies, all_moved, now, one_thread);
+    EXPECT_EQ(now[0].last_impulse.x(), 3);
+    EXPECT_EQ(now[1].last_impulse.x(), 4);
+}
+
 TEST(ContactMemory, AnImpulseIsNeverGivenTwiceAndMergedPointsKeepTheSum) {
     const BodyStorage bodies = threeBodies();
     ContactMemory memory;
-    memory.store(bodies, std::vector{contactAt(0, 1, Vec3(1, 0, 0), Vec3(1, 0, 0))}, one_thread);
+    memory.store(bodies, all_moved, std::vector{contactAt(0, 1, Vec3(1, 0, 0), Vec3(1, 0, 0))}, one_thread);
     std::vector<Contact> split = {contactAt(0, 1, Vec3(1, 0.01, 0)), contactAt(0, 1, Vec3(1, -0.02, 0))};
     memory.recall(bodies, all_moved, split, one_thread);
     EXPECT_EQ(split[0].last_impulse.x() + split[1].last_impulse.x(), 1);
     split[0].impulse = Vec3(4, 0, 0);
     split[1].impulse = Vec3(5, 0, 0);
-    memory.store(bodies, split, one_thread);
+    memory.store(bodies, all_moved, split, one_thread);
     std::vector<Contact> merged = {contactAt(0, 1, Vec3(1, 0, 0))};
     memory.recall(bodies, all_moved, merged, one_thread);
     EXPECT_EQ(merged[0].last_impulse.x(), 9);
@@ -86,7 +106,7 @@ TEST(ContactMemory, FarPointsAndForgottenBodiesGiveNothing) {
     const BodyStorage bodies = threeBodies();
     ContactMemory memory;
     memory.store(
-        bodies,
+        bodies, all_moved,
         std::vector{contactAt(0, 1, Vec3(1, 0, 0), Vec3(1, 0, 0)), contactAt(1, 2, Vec3(3, 0, 0), Vec3(1, 0, 0))},
         one_thread);
     std::vector<Contact> far = {contactAt(0, 1, Vec3(1, 0.5, 0))};
@@ -112,7 +132,7 @@ TEST(ContactMemory, RecallsTheSameOnAnyNumberOfThreads) {
         }
     }
     ContactMemory memory;
-    memory.store(bodies, contacts, Executor(3));
+    memory.store(bodies, all_moved, contacts, Executor(3));
     for (const int threads : {1, 2, 3, 8}) {
         std::vector<Contact> now = contacts;
         memory.recall(bodies, all_moved, now, Executor(threads));
