@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "math/arrays.h"
+
 namespace cairn {
 
 namespace {
@@ -45,7 +47,7 @@ void joinBodies(std::span<const BodyKind> kind, std::span<const Contact> contact
     scratch.parent.resize(kind.size());
     std::iota(scratch.parent.begin(), scratch.parent.end(), 0);
     scratch.batch_of_body.assign(kind.size(), no_batch);
-    scratch.owners.resize(contacts.size());
+    resizeTightly(scratch.owners, contacts.size());
     const auto join = [&](BodyIndex a, BodyIndex b) {
         const BodyIndex p = representative(scratch.parent, a);
         const BodyIndex q = representative(scratch.parent, b);
@@ -105,13 +107,13 @@ void buildBatches(std::span<const BodyKind> kind, std::span<const Contact> conta
     }
 
     batches.contact_begin.assign(count + 1, 0);
-    batches.batch_of_contact.resize(contacts.size());
+    resizeTightly(batches.batch_of_contact, contacts.size());
     for (std::size_t c = 0; c < contacts.size(); ++c) {
         batches.batch_of_contact[c] = batch_of_body[scratch.owners[c]];
         ++batches.contact_begin[batches.batch_of_contact[c]];
     }
     countsToOffsets(batches.contact_begin);
-    batches.contacts.resize(contacts.size());
+    resizeTightly(batches.contacts, contacts.size());
     scratch.cursor.assign(batches.contact_begin.begin(), batches.contact_begin.end());
     for (std::size_t c = 0; c < contacts.size(); ++c) {
         batches.contacts[scratch.cursor[batches.batch_of_contact[c]]++] = static_cast<std::uint32_t>(c);
@@ -125,7 +127,7 @@ void listContacts(std::span<const BodyKind> kind, std::span<const Contact> conta
         for (const BodyIndex body : {contact.a, contact.b}) begin[body] += isDynamic(kind, body) ? 1u : 0u;
     }
     countsToOffsets(begin);
-    of_bodies.contacts.resize(begin[kind.size()]);
+    resizeTightly(of_bodies.contacts, begin[kind.size()]);
     for (std::size_t c = 0; c < contacts.size(); ++c) {
         for (const BodyIndex body : {contacts[c].a, contacts[c].b}) {
             if (isDynamic(kind, body)) of_bodies.contacts[begin[body]++] = static_cast<std::uint32_t>(c);

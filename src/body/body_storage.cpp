@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "math/arrays.h"
 #include "math/rotation.h"
 
 namespace cairn {
@@ -21,34 +22,10 @@ BodyIndex BodyStorage::allocate(BodyKind new_kind) {
     BodyIndex i = 0;
     if (holes_.empty()) {
         i = static_cast<BodyIndex>(kind.size());
-        const std::size_t n = kind.size() + 1;
-        kind.resize(n);
-        generation.resize(n, 0);
-        shape.resize(n);
-        material.resize(n);
-        name.resize(n);
-        position.resize(n);
-        orientation.resize(n);
-        v.resize(n);
-        w.resize(n);
-        p_BS.resize(n);
-        R_BS.resize(n);
-        mass.resize(n);
-        inertia_B.resize(n);
-        mass_inv.resize(n);
-        inertiaInv_B.resize(n);
-        inertiaInv_W.resize(n);
-        r_max.resize(n);
-        linear_step.resize(n);
-        force.resize(n);
-        torque.resize(n);
-        constant_force.resize(n);
-        constant_torque.resize(n);
-        asleep.resize(n);
-        resting.resize(n);
-        woken.resize(n);
-        motion.resize(n);
-        supports.resize(n);
+        const auto addSlot = [n = kind.size() + 1](auto&... arrays) { (resizeTightly(arrays, n), ...); };
+        addSlot(kind, generation, shape, material, name, position, orientation, v, w, p_BS, R_BS, mass, inertia_B,
+                mass_inv, inertiaInv_B, inertiaInv_W, r_max, linear_step, force, torque, constant_force,
+                constant_torque, asleep, resting, woken, motion, supports);
     } else {
         std::pop_heap(holes_.begin(), holes_.end(), std::greater<>());
         i = holes_.back();

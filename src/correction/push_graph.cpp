@@ -1,5 +1,7 @@
 #include "correction/push_graph.h"
 
+#include "math/arrays.h"
+
 namespace cairn {
 
 namespace {
@@ -19,7 +21,7 @@ void PushGraph::reset(const ContactsOfBodies& contacts_of, std::span<const Conta
     remaining_ = remaining;
     ++round_;
     if (nodes_.size() < bodies.size()) nodes_.resize(bodies.size());
-    if (links_.size() < contacts_of.contacts.size()) links_.resize(contacts_of.contacts.size());
+    if (links_.size() < contacts_of.contacts.size()) resizeTightly(links_, contacts_of.contacts.size());
 }
 
 void PushGraph::pack(BodyIndex body) {

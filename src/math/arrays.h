@@ -13,4 +13,11 @@ void resizeTightly(std::vector<Element>& array, std::size_t size) {
     array.resize(size);
 }
 
+/// Appends an element likewise.
+template <class Element>
+void appendTightly(std::vector<Element>& array, const Element& element) {
+    if (array.size() == array.capacity()) array.reserve(array.size() + array.size() / 8 + 1);
+    array.push_back(element);
+}
+
 }  // namespace cairn

@@ -11,10 +11,12 @@ namespace {
 
 /// What the contacts of a sleeping body push more than when it was awake last.
 struct Disturbance {
+    BodyIndex body;
     Vec3 linear = Vec3::Zero();   ///< [N·s]
     Vec3 angular = Vec3::Zero();  ///< about the centre of mass [N·m·s]
     double squared_reach = 0;     ///< of the farthest contact from the centre of mass [m²]
-    bool seen = false;
+
+    static constexpr std::uint32_t none = UINT32_MAX;
 };
 
 /// What a batch that is resolved in part does with a body.
@@ -83,7 +85,7 @@ class AwakePart final : public Resolution {
                                  const ResolutionSettings& settings, const Executor& executor) {
         if (part_.size() < bodies.size()) {
             part_.resize(bodies.size(), Part::free);
-            disturbances_.resize(bodies.size());
+            disturbance_of_.resize(bodies.size(), Disturbance::none);
         }
         for (const BodyIndex i : batch.bodies) {
             if (bodies.resting[i] == 0 && !(sleeps(bodies, i) && settings.wake_speed > 0)) continue;
@@ -140,29 +142,31 @@ class AwakePart final : public Resolution {
 
     void findDisturbed(std::span<const Contact> contacts, const BodyState& bodies, const ResolutionSettings& settings) {
         disturbed_.clear();
-        seen_.clear();
+        disturbances_.clear();
         for (const std::uint32_t i : part_contacts_) {
             const Contact& contact = contacts[i];
             const Vec3 difference = contact.impulse - contact.reference_impulse;
             if (isHeld(contact.a)) disturb(contact.a, difference, contact.point - bodies.position[contact.a]);
             if (isHeld(contact.b)) disturb(contact.b, -difference, contact.point - bodies.position[contact.b]);
         }
-        for (const BodyIndex i : seen_) {
-            Disturbance& d = disturbances_[i];
+        for (const Disturbance& d : disturbances_) {
+            const BodyIndex i = d.body;
             const Vec3 v = bodies.mass_inv[i] * d.linear;
             const Vec3 w = bodies.inertiaInv_W[i] * d.angular;
             // As the motion that falling asleep is about; what is not a number disturbs, too.
             const double motion = 2 * (v.squaredNorm() + w.squaredNorm() * d.squared_reach);
             const double limit = bodies.resting[i] != 0 ? rest_multiple * settings.rest_speed : settings.wake_speed;
             if (!(motion <= limit * limit)) disturbed_.push_back(i);
-            d = {};
+            disturbance_of_[i] = Disturbance::none;
         }
     }
 
     void disturb(BodyIndex i, const Vec3& impulse, const Vec3& r) {
-        Disturbance& d = disturbances_[i];
-        if (!d.seen) seen_.push_back(i);
-        d.seen = true;
+        if (disturbance_of_[i] == Disturbance::none) {
+            disturbance_of_[i] = static_cast<std::uint32_t>(disturbances_.size());
+            disturbances_.push_back({.body = i});
+        }
+        Disturbance& d = disturbances_[disturbance_of_[i]];
         d.linear += impulse;
         d.angular += r.cross(impulse);
         d.squared_reach = std::max(d.squared_reach, r.squaredNorm());
@@ -202,12 +206,12 @@ class AwakePart final : public Resolution {
 
     std::unique_ptr<Resolution> resolution_;
     Sleepers sleepers_;
-    std::vector<Part> part_;                    ///< [slots] free outside of resolve()
-    std::vector<Disturbance> disturbances_;     ///< [slots] none outside of findDisturbed()
-    std::vector<BodyIndex> part_bodies_;        ///< ascending
-    std::vector<std::uint32_t> part_contacts_;  ///< ascending
-    std::vector<BodyMotion> before_;            ///< [part_bodies_]
-    std::vector<BodyIndex> seen_;               ///< held bodies with a contact of the part
+    std::vector<Part> part_;                     ///< [slots] free outside of resolve()
+    std::vector<Disturbance> disturbances_;      ///< of held bodies with a contact of the part
+    std::vector<std::uint32_t> disturbance_of_;  ///< [slots] index in disturbances_; none outside of findDisturbed()
+    std::vector<BodyIndex> part_bodies_;         ///< ascending
+    std::vector<std::uint32_t> part_contacts_;   ///< ascending
+    std::vector<BodyMotion> before_;             ///< [part_bodies_]
     std::vector<BodyIndex> disturbed_;
 };
 

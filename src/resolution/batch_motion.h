@@ -8,6 +8,7 @@
 #include "batches/batches.h"
 #include "body/body_storage.h"
 #include "body/contact.h"
+#include "math/arrays.h"
 
 namespace cairn {
 
@@ -23,8 +24,8 @@ inline bool isAtRest(const BodyState& bodies, BodyIndex i) {
 
 /// @param motion out, one entry per body; keeps its memory
 inline void noteMotion(std::span<const BodyIndex> noted, const BodyState& bodies, std::vector<BodyMotion>& motion) {
-    motion.clear();
-    for (const BodyIndex i : noted) motion.push_back({bodies.v[i], bodies.w[i]});
+    resizeTightly(motion, noted.size());
+    for (std::size_t n = 0; n < noted.size(); ++n) motion[n] = {bodies.v[noted[n]], bodies.w[noted[n]]};
 }
 
 /// ϑA − ϑB [m/s, W]. @source thesis (3.4.1)

@@ -1,11 +1,12 @@
 #include "resolution/body_direction.h"
 
+#include "math/arrays.h"
 #include "resolution/sweeper.h"
 
 namespace cairn {
 
 void BodyDirection::note(const LocalBatch& batch, const Executor& executor) {
-    before_.resize(batch.dynamic_bodies);
+    resizeTightly(before_, batch.dynamic_bodies);
     forEach(before_.size(), executor, [&](std::size_t i) { before_[i] = {batch.bodies[i].v, batch.bodies[i].w}; });
 }
 

@@ -123,7 +123,7 @@ void collidePair(const BodyStorage& bodies, const BodyPair& pair, double margin,
         for (std::size_t k = 0; k < found.size; ++k) {
             const auto& [point, distance] = found.points[k];
             if (mergeInto(std::span(contacts).subspan(first, earlier), point, found.normal, distance, reach)) continue;
-            contacts.push_back({pair.a, pair.b, point, found.normal, distance});
+            appendTightly(contacts, {pair.a, pair.b, point, found.normal, distance});
         }
     };
     forEachManifold(bodies.shape[pair.a], bodies.shapePose(pair.a), bodies.shape[pair.b], bodies.shapePose(pair.b),
@@ -207,7 +207,7 @@ void detect(const BodyStorage& bodies, const MaterialTable& materials, BroadPhas
                     collidePair(bodies, pair, margin, manifold, contacts);
                 }
                 for (const Contact& c : last) {
-                    contacts.push_back({c.a, c.b, c.point, c.normal, c.distance});
+                    appendTightly(contacts, {c.a, c.b, c.point, c.normal, c.distance});
                 }
             }
         },
