@@ -13,10 +13,10 @@ namespace {
 /// Where joints block all motion at a contact along a direction, rounding leaves about this part of what the bodies
 /// would do without joints. @note far above one rounding, since factorising a mechanism takes many
 constexpr double blocked = 1e-12;
-/// What a contact yields along a direction counts as nothing below this multiple of that, and below this part of what
-/// it yields along another one: the impulses that a velocity along it asks for would be of rounding.
-constexpr double far_from_blocked = 1e5;
+/// What a contact yields along a direction counts as nothing below this part of what it yields along another one, or
+/// this part of what it yields without joints: the impulses that a velocity along it asks for would be of rounding.
 constexpr double hardly = 1e-7;
+constexpr double hardly_of_unjointed = 1e3 * blocked;
 
 /// Most passes over the bounds of a batch at a time.
 constexpr int most_passes = 50;
@@ -198,7 +198,7 @@ Twist BatchJoints::relativeChange(const ContactFrame& contact) const {
             change_a.w - change_b.w};
 }
 
-JointedCollision BatchJoints::collisionMatrix(const ContactFrame& contact, std::span<const LocalBody> bodies) {
+Symmetric3 BatchJoints::collisionMatrix(const ContactFrame& contact, std::span<const LocalBody> bodies) {
     Mat3 k;
     for (Eigen::Index i = 0; i < 3; ++i) {
         respond(contact, contact.basis.col(i), Vec3::Zero(), bodies);
@@ -207,9 +207,24 @@ JointedCollision BatchJoints::collisionMatrix(const ContactFrame& contact, std::
     const Symmetric3 unjointed = cairn::collisionMatrix(contact, bodies[contact.a], bodies[contact.b]);
     const double rest = blocked * std::max({unjointed.xx, unjointed.yy, unjointed.zz});
     if (!(k(0, 0) > rest)) return {};
-    const Mat3 symmetric = 0.5 * (k + k.transpose()) + rest * Mat3::Identity();
-    const Vec3 yields = Eigen::SelfAdjointEigenSolver<Mat3>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
-    return {Symmetric3::from(symmetric), yields[0] < std::max(far_from_blocked * rest, hardly * yields[2])};
+    return Symmetric3::from(0.5 * (k + k.transpose()) + rest * Mat3::Identity());
+}
+
+void BatchJoints::setCollisionMatrixOf(ContactFrame& contact, std::span<const LocalBody> bodies) {
+    const Symmetric3 k = collisionMatrix(contact, bodies);
+    setCollisionMatrix(contact, k);
+    if (!isResolvable(contact)) return;
+    const Symmetric3 unjointed = cairn::collisionMatrix(contact, bodies[contact.a], bodies[contact.b]);
+    const Eigen::SelfAdjointEigenSolver<Mat3> solver(k.toMatrix());
+    const Vec3& yields = solver.eigenvalues();  // ascending
+    const double least =
+        std::max(hardly * yields[2], hardly_of_unjointed * std::max({unjointed.xx, unjointed.yy, unjointed.zz}));
+    if (!(yields[0] < least)) return;
+    const Mat3& directions = solver.eigenvectors();
+    contact.k_row = Vec3(k.xx, k.xy, k.xz);
+    contact.k_inv =
+        Symmetric3::from(directions * yields.cwiseMax(least).cwiseInverse().asDiagonal() * directions.transpose());
+    contact.is_blocked = true;
 }
 
 Mat6 BatchJoints::wrenchMatrix(const ContactFrame& contact, std::span<const LocalBody> bodies) {

@@ -48,13 +48,6 @@ class BatchJointGroup {
     std::vector<double> projected_;       ///< [rows] those of project()
 };
 
-/// How a contact of jointed bodies yields.
-struct JointedCollision {
-    /// The collision matrix [1/kg, contact coordinates]: positive definite, or 0 where the joints block the normal.
-    Symmetric3 k;
-    bool is_blocked = false;  ///< the joints block all motion at the contact in some direction
-};
-
 /// All groups of joints of a batch.
 class BatchJoints {
   public:
@@ -67,8 +60,11 @@ class BatchJoints {
     bool holds(const ContactFrame& contact) const {
         return count_ > 0 && (groupOf(contact.a) != none || groupOf(contact.b) != none);
     }
-    /// The collision matrix with the joints holding. @pre holds(contact)
-    JointedCollision collisionMatrix(const ContactFrame& contact, std::span<const LocalBody> bodies);
+    /// The collision matrix with the joints holding [1/kg, contact coordinates]: positive definite, or 0 where they
+    /// block the normal. @pre holds(contact)
+    Symmetric3 collisionMatrix(const ContactFrame& contact, std::span<const LocalBody> bodies);
+    /// Stores it, with its inverse where the joints leave the contact free to move. @pre holds(contact)
+    void setCollisionMatrixOf(ContactFrame& contact, std::span<const LocalBody> bodies);
     /// Applies an impulse on A at a contact. @param impulse [N·s, W] @pre holds(contact)
     void push(const ContactFrame& contact, const Vec3& impulse, std::span<LocalBody> bodies);
     /// Likewise an angular impulse. @param impulse [N·m·s, W] @pre holds(contact)

@@ -81,9 +81,7 @@ class LocalBatch {
     Vec3 velocityOf(const ContactFrame& c) const { return relativeVelocity(c, bodies[c.a], bodies[c.b]); }
     void updateCollisionMatrixOf(ContactFrame& c) {
         if (joints.holds(c)) {
-            const JointedCollision collision = joints.collisionMatrix(c, bodies);
-            setCollisionMatrix(c, collision.k);
-            c.is_blocked = collision.is_blocked;
+            joints.setCollisionMatrixOf(c, bodies);
         } else {
             setCollisionMatrix(c, collisionMatrix(c, bodies[c.a], bodies[c.b]));
         }

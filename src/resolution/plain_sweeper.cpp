@@ -80,7 +80,7 @@ void PlainSweeper::beginContact(std::size_t i, const SweptBatch& swept) {
     Symmetric3 k;
     if (framed_ && local.joints.holds(local.contacts[i])) {
         const ContactFrame& frame = local.contacts[i];
-        const Mat3 in_contact = local.joints.collisionMatrix(frame, local.bodies).k.toMatrix();
+        const Mat3 in_contact = local.joints.collisionMatrix(frame, local.bodies).toMatrix();
         k = Symmetric3::from(frame.basis * in_contact * frame.basis.transpose());
     } else {
         addCollisionMatrix(a.mass_inv, a.inertia_inv, s.r_a, k);
