@@ -116,6 +116,7 @@ bool reduce(Simplex& s) {
 }  // namespace
 
 Closeness findClosest(const Convex& a, const Convex& b, double limit, Separation& separation) {
+    using Kind = Closeness::Kind;
     const Vec3 centres = b.centre() - a.centre();
     Simplex simplex;
     simplex.size = 1;
@@ -127,11 +128,11 @@ Closeness findClosest(const Convex& a, const Convex& b, double limit, Separation
     for (int i = 0; i < most_iterations && distance > touching; ++i) {
         const Difference next(a, b, -v);
         const double at_least = next.w.dot(v) / distance;
-        if (at_least > limit) return Closeness::beyond;
+        if (at_least > limit) return {Kind::beyond};
         if (distance - at_least <= distance_error * distance || simplex.holds(next.w)) break;
         const Simplex before = simplex;
         simplex.points[simplex.size++] = next;
-        if (!reduce(simplex)) return Closeness::touching;
+        if (!reduce(simplex)) return {Kind::touching, simplex.points};
         v = simplex.closest();
         const double closer = v.norm();
         if (!(closer < distance)) {  // rounding ends the descent
@@ -140,29 +141,24 @@ Closeness findClosest(const Convex& a, const Convex& b, double limit, Separation
         }
         distance = closer;
     }
-    if (!(distance > touching)) return Closeness::touching;
-    if (distance > limit) return Closeness::beyond;
+    if (!(distance > touching)) return {Kind::touching};
+    if (distance > limit) return {Kind::beyond};
     separation.on_a = simplex.onA();
     const Vec3 apart = simplex.closest();
     separation.on_b = separation.on_a - apart;
     separation.normal = -apart / distance;
     separation.distance = distance;
-    return Closeness::apart;
+    return {Kind::apart};
 }
 
 bool separate(const Convex& a, const Convex& b, double limit, Separation& separation) {
     const Vec3 centres = b.centre() - a.centre();
     const double reach = a.reach() + b.reach() + limit;
     if (!(centres.squaredNorm() <= reach * reach)) return false;
-    switch (findClosest(a, b, limit, separation)) {
-        case Closeness::beyond:
-            return false;
-        case Closeness::apart:
-            return true;
-        case Closeness::touching:
-            break;
-    }
-    findLeastOverlap(a, b, centres.isZero(0) ? Vec3(Vec3::UnitX()) : centres, separation);
+    const Closeness closeness = findClosest(a, b, limit, separation);
+    if (closeness.kind != Closeness::Kind::touching) return closeness.kind == Closeness::Kind::apart;
+    const Vec3 direction = centres.isZero(0) ? Vec3(Vec3::UnitX()) : centres;
+    findLeastOverlap(a, b, closeness.around, direction, separation);
     return separation.distance <= limit;
 }
 

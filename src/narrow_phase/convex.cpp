@@ -80,7 +80,7 @@ Vec3 Convex::support(const Vec3& direction) const {
     }
     Vec3 farthest(std::copysign(half_.x(), d.x()), std::copysign(half_.y(), d.y()), std::copysign(half_.z(), d.z()));
     if (kind_ == Kind::cylinder) {
-        const double across = std::hypot(d.x(), d.y());
+        const double across = std::sqrt(d.x() * d.x() + d.y() * d.y());
         farthest.head<2>() =
             across > 0 ? Eigen::Vector2d(half_.x() / across * d.head<2>()) : Eigen::Vector2d(half_.x(), 0);
     }

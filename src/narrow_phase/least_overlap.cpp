@@ -15,14 +15,15 @@ constexpr double depth_error = 1e-11;
 /// Heights above a facet below this part of the size of A − B are rounding.
 constexpr double flat_part = 1e-13;
 
+/// A tetrahedron lower than this part of the size of A − B is too flat to begin with.
+constexpr double low_part = 1e-3;
+
 /// A triangle of the polytope, counter-clockwise seen from outside.
 struct Facet {
-    std::array<std::uint8_t, 3> corners{};
-    std::array<std::uint8_t, 3> across{};  ///< the facet beyond the edge from each corner to the next
-    bool alive = false;
-    bool visible = false;
-    Vec3 normal = Vec3::Zero();  ///< unit, outward
-    double offset = 0;           ///< of its plane from the origin along the normal; negative = the origin is outside
+    std::array<std::uint8_t, 3> corners;
+    std::array<std::uint8_t, 3> across;  ///< the facet beyond the edge from each corner to the next
+    bool visible;
+    Vec3 normal;  ///< unit, outward
 };
 
 /// An edge between a facet that stays and one that goes.
@@ -36,11 +37,15 @@ struct Border {
 /// A convex polytope whose corners are points of A − B.
 class Polytope {
   public:
-    /// @return false if A − B is flat
+    /// Begins with four points. @return false if they are too flat @param size about that of A − B [m]
+    bool begin(const Tetrahedron& around, double size);
+    /// Begins with points far apart. @return false if A − B is flat
     bool begin(const Convex& a, const Convex& b, const Vec3& direction);
     /// The facet whose plane lies farthest inwards, seen from the origin.
     std::uint8_t nearest() const;
     const Facet& facet(std::uint8_t index) const { return facets_[index]; }
+    /// Of a facet's plane from the origin along the normal; negative = the origin is outside.
+    double offset(std::uint8_t index) const { return offset_[index]; }
     double size() const { return size_; }
     /// Takes a point beyond a facet in. @return false if the polytope is full or rounding spoils it
     bool add(const Difference& point, std::uint8_t seen_by);
@@ -50,8 +55,10 @@ class Polytope {
   private:
     static constexpr std::size_t most_corners = 96;
     static constexpr std::size_t most_facets = 2 * most_corners;
+    static constexpr double no_facet = std::numeric_limits<double>::infinity();
 
     bool put(std::uint8_t index, std::uint8_t i, std::uint8_t j, std::uint8_t k);
+    bool putFirst(bool is_above);
     void findVisible(const Vec3& w, std::uint8_t first);
     bool collectBorder();
     std::uint8_t freeFacet();
@@ -63,6 +70,7 @@ class Polytope {
     double size_ = 0;
     std::array<Difference, most_corners> corners_;
     std::array<Facet, most_facets> facets_;
+    std::array<double, most_facets> offset_;  ///< side by side, since they are compared again and again; ∞ = no facet
     std::array<std::uint8_t, most_facets> visible_;
     std::array<Border, most_facets> border_;
 };
@@ -74,10 +82,39 @@ bool Polytope::put(std::uint8_t index, std::uint8_t i, std::uint8_t j, std::uint
     const double length = facet.normal.norm();
     if (!(length > std::numeric_limits<double>::min())) return false;
     facet.normal /= length;
-    facet.offset = facet.normal.dot(p);
+    offset_[index] = facet.normal.dot(p);
     facet.corners = {i, j, k};
-    facet.alive = true;
     facet.visible = false;
+    return true;
+}
+
+/// Puts facets on the first four corners. @param is_above whether the last lies above the others, where these are
+/// counter-clockwise
+bool Polytope::putFirst(bool is_above) {
+    corner_count_ = 4;
+    facet_count_ = 4;
+    const auto second = static_cast<std::uint8_t>(is_above ? 2 : 1);
+    const auto third = static_cast<std::uint8_t>(3 - second);
+    facets_[0].across = {1, 2, 3};
+    facets_[1].across = {0, 3, 2};
+    facets_[2].across = {0, 1, 3};
+    facets_[3].across = {0, 2, 1};
+    return put(0, 0, second, third) && put(1, second, 0, 3) && put(2, third, second, 3) && put(3, 0, third, 3);
+}
+
+bool Polytope::begin(const Tetrahedron& around, double size) {
+    std::ranges::copy(around, corners_.begin());
+    size_ = size;
+    const Vec3& p = corners_[0].w;
+    const Vec3 normal = (corners_[1].w - p).cross(corners_[2].w - p);
+    if (!putFirst(normal.dot(corners_[3].w - p) > 0)) return false;
+    for (std::uint8_t i = 0; i < 4; ++i) {
+        double height = 0;  // of the corner that the facet lacks
+        for (std::size_t k = 0; k < 4; ++k) {
+            height = std::max(height, offset_[i] - facets_[i].normal.dot(corners_[k].w));
+        }
+        if (height < low_part * size) return false;
+    }
     return true;
 }
 
@@ -106,27 +143,13 @@ bool Polytope::begin(const Convex& a, const Convex& b, const Vec3& direction) {
     if (!(std::max(up, down) > flat_part * size_)) return false;
     size_ = std::max({size_, up, down});
     corners_[3] = up >= down ? above : below;
-    corner_count_ = 4;
-    facet_count_ = 4;
-    // Seen from the side of the fourth corner, 0, 1, 2 are counter-clockwise if it lies above them.
-    const auto second = static_cast<std::uint8_t>(up >= down ? 2 : 1);
-    const auto third = static_cast<std::uint8_t>(3 - second);
-    facets_[0].across = {1, 2, 3};
-    facets_[1].across = {0, 3, 2};
-    facets_[2].across = {0, 1, 3};
-    facets_[3].across = {0, 2, 1};
-    return put(0, 0, second, third) && put(1, second, 0, 3) && put(2, third, second, 3) && put(3, 0, third, 3);
+    return putFirst(up >= down);
 }
 
 std::uint8_t Polytope::nearest() const {
-    std::size_t best = 0;
-    double offset = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < facet_count_; ++i) {
-        if (!facets_[i].alive || !(facets_[i].offset < offset)) continue;
-        offset = facets_[i].offset;
-        best = i;
-    }
-    return static_cast<std::uint8_t>(best);
+    const auto end = offset_.begin() + facet_count_;
+    const double least = Eigen::Map<const Eigen::ArrayXd>(offset_.data(), end - offset_.begin()).minCoeff();
+    return static_cast<std::uint8_t>(std::find(offset_.begin(), end, least) - offset_.begin());
 }
 
 void Polytope::findVisible(const Vec3& w, std::uint8_t first) {
@@ -137,7 +160,7 @@ void Polytope::findVisible(const Vec3& w, std::uint8_t first) {
         for (const std::uint8_t other : facets_[visible_[i]].across) {
             Facet& facet = facets_[other];
             // A facet in whose plane the point lies goes, too: kept, it would have a neighbour without an area.
-            if (facet.visible || facet.normal.dot(w) - facet.offset < -flat_part * size_) continue;
+            if (facet.visible || facet.normal.dot(w) - offset_[other] < -flat_part * size_) continue;
             facet.visible = true;
             visible_[visible_count_++] = other;
         }
@@ -161,10 +184,10 @@ bool Polytope::collectBorder() {
 }
 
 std::uint8_t Polytope::freeFacet() {
-    for (std::size_t i = 0; i < facet_count_; ++i) {
-        if (!facets_[i].alive) return static_cast<std::uint8_t>(i);
-    }
-    return static_cast<std::uint8_t>(facet_count_++);
+    const auto facets_end = offset_.begin() + facet_count_;
+    const auto free = std::find(offset_.begin(), facets_end, no_facet);
+    if (free == facets_end) ++facet_count_;
+    return static_cast<std::uint8_t>(free - offset_.begin());
 }
 
 bool Polytope::add(const Difference& point, std::uint8_t seen_by) {
@@ -173,7 +196,7 @@ bool Polytope::add(const Difference& point, std::uint8_t seen_by) {
     if (!collectBorder()) return false;
     const auto corner = static_cast<std::uint8_t>(corner_count_++);
     corners_[corner] = point;
-    for (std::size_t i = 0; i < visible_count_; ++i) facets_[visible_[i]].alive = false;
+    for (std::size_t i = 0; i < visible_count_; ++i) offset_[visible_[i]] = no_facet;
     for (std::size_t i = 0; i < border_count_; ++i) {
         Border& edge = border_[i];
         edge.fresh = freeFacet();
@@ -201,7 +224,7 @@ Vec3 Polytope::onA(std::uint8_t index) const {
     const Vec3 u = q.w - p.w;
     const Vec3 v = r.w - p.w;
     const Vec3 normal = u.cross(v);
-    const Vec3 from = facet.offset * facet.normal - p.w;
+    const Vec3 from = offset_[index] * facet.normal - p.w;
     // The two triangles of the parallelogram of two edges go on in each other, so the weights may leave 0 to 1.
     const double t = std::clamp(normal.dot(from.cross(v)) / normal.squaredNorm(), -1.0, 2.0);
     const double s = std::clamp(normal.dot(u.cross(from)) / normal.squaredNorm(), -1.0, 2.0);
@@ -210,10 +233,12 @@ Vec3 Polytope::onA(std::uint8_t index) const {
 
 }  // namespace
 
-void findLeastOverlap(const Convex& a, const Convex& b, const Vec3& direction, Separation& separation) {
+void findLeastOverlap(const Convex& a, const Convex& b, const std::optional<Tetrahedron>& around, const Vec3& direction,
+                      Separation& separation) {
     Polytope polytope;
     separation.distance = -std::numeric_limits<double>::infinity();
-    bool growing = polytope.begin(a, b, direction);
+    const double size = 2 * (a.reach() + b.reach());
+    bool growing = (around.has_value() && polytope.begin(*around, size)) || polytope.begin(a, b, direction);
     if (!growing) {
         // Two flat cores in one plane: every direction across it parts them at once.
         separation.normal = direction.stableNormalized();
@@ -228,7 +253,7 @@ void findLeastOverlap(const Convex& a, const Convex& b, const Vec3& direction, S
         const Facet& facet = polytope.facet(index);
         const Difference point(a, b, facet.normal);
         const double depth = point.w.dot(facet.normal);
-        const bool done = depth - facet.offset <= depth_error * polytope.size();
+        const bool done = depth - polytope.offset(index) <= depth_error * polytope.size();
         if (done || -depth > separation.distance) {
             separation.normal = facet.normal;
             separation.distance = -depth;

@@ -1,6 +1,9 @@
 /// @file How far two convex cores are apart, or along which direction they overlap least.
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "narrow_phase/convex.h"
 
 namespace cairn {
@@ -30,8 +33,14 @@ struct Separation {
 /// @return false if they are
 bool separate(const Convex& a, const Convex& b, double limit, Separation& separation);
 
+/// Four points of A − B.
+using Tetrahedron = std::array<Difference, 4>;
+
 /// What the search for the closest points of A and B found.
-enum class Closeness { beyond, apart, touching };
+struct Closeness {
+    enum class Kind { beyond, apart, touching } kind;
+    std::optional<Tetrahedron> around{};  ///< the origin, where cores that touch overlap enough to have one
+};
 
 /// Closest points of two cores. @source Gilbert, Johnson, Keerthi 1988, doi:10.1109/56.2083
 /// @param separation is set if they are apart; cores apart by less than rounding allows to tell count as touching
@@ -40,7 +49,9 @@ Closeness findClosest(const Convex& a, const Convex& b, double limit, Separation
 /// The direction of least overlap of two cores that touch or overlap: grows a polytope inside A − B towards its facet
 /// nearest to the origin. A facet beyond which the origin lies counts as near as it separates, so that touching is no
 /// special case.
-/// @param direction a first guess, not zero
-void findLeastOverlap(const Convex& a, const Convex& b, const Vec3& direction, Separation& separation);
+/// @param around the polytope to begin with, unless it is none or flat @param direction a first guess otherwise, not
+/// zero
+void findLeastOverlap(const Convex& a, const Convex& b, const std::optional<Tetrahedron>& around, const Vec3& direction,
+                      Separation& separation);
 
 }  // namespace cairn
