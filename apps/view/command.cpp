@@ -191,7 +191,7 @@ Action parseSelect(const json& o) {
 
 template <typename Plain>
 Action parsePlain(const json& o) {
-    Members(o, "command", {});
+    [[maybe_unused]] const Members none(o, "command", {});
     return Plain{};
 }
 

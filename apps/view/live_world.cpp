@@ -114,7 +114,7 @@ MaterialId LiveWorld::material(const std::string& name) const {
     throw InputError(fmt::format("there is no material '{}' in this world", name));
 }
 
-BodyId LiveWorld::addBody(BodyDescription description) {
+BodyId LiveWorld::addBody(const BodyDescription& description) {
     if (world().bodyCount() >= most_bodies) {
         throw InputError(fmt::format("the world has {} bodies; viewers can add no more", world().bodyCount()));
     }

@@ -75,7 +75,7 @@ class LiveWorld {
 
     void begin(const Settings& settings);
     MaterialId material(const std::string& name) const;
-    BodyId addBody(BodyDescription description);
+    BodyId addBody(const BodyDescription& description);
 
     Scene scene_;
     std::string title_;

@@ -30,6 +30,7 @@ Load fill(int count, double width, std::uint64_t seed, const Plan& plan) {
     const double speed = 0.2 * grain;  // [m/s]
     const int lowering = static_cast<int>(0.5 * rate);
     const int resting = static_cast<int>(0.5 * rate);
+    const int measured = resting - resting / 2;
     Pose pose = grains.world.pose(floor);
     for (int i = 0; i < lowering + resting; ++i) {
         plan.alive();
@@ -38,7 +39,7 @@ Load fill(int count, double width, std::uint64_t seed, const Plan& plan) {
             grains.world.setPose(floor, pose);
         }
         grains.world.step();
-        if (i >= lowering + resting / 2) load.floor += grains.liftedBy(floor) / (resting - resting / 2);
+        if (i >= lowering + resting - measured) load.floor += grains.liftedBy(floor) / measured;
     }
     return load;
 }
