@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "narrow_phase/separation.h"
 
@@ -24,11 +25,6 @@ struct Simplex {
     std::array<Difference, 4> points;
     std::array<double, 4> weights{};
 
-    Vec3 closest() const {
-        Vec3 sum = Vec3::Zero();
-        for (std::size_t i = 0; i < size; ++i) sum += weights[i] * points[i].w;
-        return sum;
-    }
     Vec3 onA() const {
         Vec3 sum = Vec3::Zero();
         for (std::size_t i = 0; i < size; ++i) sum += weights[i] * points[i].a;
@@ -39,7 +35,7 @@ struct Simplex {
     }
 };
 
-/// Some of a simplex's points, with the weights of their point closest to the origin.
+/// Some of a simplex's points, ascending, with the weights of their point closest to the origin.
 struct Face {
     std::size_t size = 0;
     std::array<std::size_t, 3> corners{};
@@ -49,7 +45,20 @@ struct Face {
     void offer(const Face& other) {
         if (other.squared < squared) *this = other;
     }
+    Vec3 closest(const Simplex& s) const {
+        Vec3 sum = Vec3::Zero();
+        for (std::size_t i = 0; i < size; ++i) sum += weights[i] * s.points[corners[i]].w;
+        return sum;
+    }
 };
+
+void reduce(Simplex& s, const Face& face) {
+    s.size = face.size;
+    for (std::size_t i = 0; i < face.size; ++i) {
+        s.points[i] = s.points[face.corners[i]];
+        s.weights[i] = face.weights[i];
+    }
+}
 
 Face closestOfPoint(const Simplex& s, std::size_t i) {
     return {1, {i}, {1}, s.points[i].w.squaredNorm()};
@@ -92,25 +101,17 @@ bool holdsOrigin(const Simplex& s) {
     return true;
 }
 
-/// Reduces a simplex to the face that holds its point closest to the origin. @return false if it holds the origin
-bool reduce(Simplex& s) {
-    if (s.size == 4 && holdsOrigin(s)) return false;
-    Face best;
-    for (std::size_t i = 0; i < s.size; ++i) {
-        best.offer(closestOfPoint(s, i));
-        for (std::size_t j = i + 1; j < s.size; ++j) {
-            best.offer(closestOfEdge(s, i, j));
-            for (std::size_t k = j + 1; k < s.size; ++k) best.offer(closestOfTriangle(s, i, j, k));
-        }
+/// The face of a simplex that holds its point closest to the origin. Only faces with the last point, which was added
+/// because it leads closer than all others. @return none if the simplex holds the origin
+std::optional<Face> closestFace(const Simplex& s) {
+    if (s.size == 4 && holdsOrigin(s)) return {};
+    const std::size_t last = s.size - 1;
+    Face best = closestOfPoint(s, last);
+    for (std::size_t i = 0; i < last; ++i) {
+        best.offer(closestOfEdge(s, i, last));
+        for (std::size_t j = i + 1; j < last; ++j) best.offer(closestOfTriangle(s, i, j, last));
     }
-    Simplex reduced;
-    reduced.size = best.size;
-    for (std::size_t i = 0; i < best.size; ++i) {
-        reduced.points[i] = s.points[best.corners[i]];
-        reduced.weights[i] = best.weights[i];
-    }
-    s = reduced;
-    return true;
+    return best;
 }
 
 }  // namespace
@@ -130,23 +131,24 @@ Closeness findClosest(const Convex& a, const Convex& b, double limit, Separation
         const double at_least = next.w.dot(v) / distance;
         if (at_least > limit) return {Kind::beyond};
         if (distance - at_least <= distance_error * distance || simplex.holds(next.w)) break;
-        const Simplex before = simplex;
         simplex.points[simplex.size++] = next;
-        if (!reduce(simplex)) return {Kind::touching, simplex.points};
-        v = simplex.closest();
-        const double closer = v.norm();
+        const std::optional<Face> face = closestFace(simplex);
+        if (!face) return {Kind::touching, simplex.points};
+        const Vec3 closest = face->closest(simplex);
+        const double closer = closest.norm();
         if (!(closer < distance)) {  // rounding ends the descent
-            simplex = before;
+            --simplex.size;
             break;
         }
+        reduce(simplex, *face);
+        v = closest;
         distance = closer;
     }
     if (!(distance > touching)) return {Kind::touching};
     if (distance > limit) return {Kind::beyond};
     separation.on_a = simplex.onA();
-    const Vec3 apart = simplex.closest();
-    separation.on_b = separation.on_a - apart;
-    separation.normal = -apart / distance;
+    separation.on_b = separation.on_a - v;
+    separation.normal = -v / distance;
     separation.distance = distance;
     return {Kind::apart};
 }

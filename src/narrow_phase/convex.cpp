@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "geometry/hull_data.h"
 
@@ -123,8 +124,14 @@ void Convex::findBoxFace(const Vec3& direction, Feature& feature) const {
 
 void Convex::findHullFace(const Vec3& direction, Feature& feature) const {
     const Vec3 d = axes_.transpose() * direction;
-    const auto best = std::max_element(hull_->faces.begin(), hull_->faces.end(),
-                                       [&](const auto& f, const auto& g) { return f.normal.dot(d) < g.normal.dot(d); });
+    const HullFace* best = &hull_->faces.front();
+    double nearest = best->normal.dot(d);
+    for (const HullFace& face : std::span(hull_->faces).subspan(1)) {
+        const double cosine = face.normal.dot(d);
+        if (!(cosine > nearest)) continue;
+        nearest = cosine;
+        best = &face;
+    }
     const auto loop = hull_->loop(*best);
     const std::size_t count = std::min(loop.size(), most_face_corners);
     for (std::size_t i = 0; i < count; ++i) {
