@@ -85,7 +85,7 @@ struct FaultInfo {
 /// Whether a step checks itself; switched off it costs nothing.
 enum class Checks : std::uint8_t {
     off,
-    state,  ///< all but the energy, which extreme mass ratios and skew impacts with restitution may raise a little
+    state,  ///< all but the energy, which extreme mass ratios may raise a little
     on,
 };
 

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "math/rotation.h"
+#include "resolution/batch_motion.h"
+#include "world/joints.h"
 #include "world/totals.h"
 
 namespace cairn {
@@ -100,6 +103,21 @@ void checkBatches(const WorldState& world) {
             }
         }
     }
+}
+
+bool mustKeepEnergy(WorldState& world) {
+    if (hasMotors(world)) return false;
+    const ResolutionSettings& settings = world.settings.resolution;
+    const bool bounded = settings.resolution == ResolutionKind::accelerated_sweeps;
+    if (bounded || settings.restitution_law != RestitutionLaw::newton) return true;
+    const std::vector<Contact>& contacts = world.data.contacts;
+    const BodyState bodies = world.bodies.state();
+    // The impact may reach what bounces by way of other contacts.
+    const bool bounces =
+        std::ranges::any_of(contacts, [](const Contact& c) { return c.restitution > 0 && c.static_friction > 0; });
+    const bool strikes = std::ranges::any_of(
+        contacts, [&](const Contact& c) { return normalVelocity(c, bodies) < -settings.restitution_threshold; });
+    return !(bounces && strikes);
 }
 
 void checkEnergy(const WorldState& world, double before) {

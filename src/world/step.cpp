@@ -253,7 +253,7 @@ void stepWorld(WorldState& world) {
     timed(statistics, Stage::velocities, [&] { velocityStage(world); });
     measureIfAsked(world, Measured::forces);
     // Asked before a driven joint may break in this very step.
-    const bool weighed = world.checks == Checks::on && !hasMotors(world);
+    const bool weighed = world.checks == Checks::on && mustKeepEnergy(world);
     const double energy = weighed ? kineticEnergyOf(world.bodies) : 0;
     timed(statistics, Stage::resolution, [&] { resolveStage(world); });
     if (weighed) checkEnergy(world, energy);

@@ -90,5 +90,31 @@ TEST(StateChecks, NoticeEnergyFromNowhere) {
     EXPECT_THROW(checkEnergy(world.state, energy), InvariantError);
 }
 
+/// A rod that strikes the ground askew. @return its kinetic energy before and after the impact [J]
+std::pair<double, double> strikeAskew(RestitutionLaw law) {
+    Settings settings = Settings::preset(Preset::accuracy);
+    settings.resolution.resolution = ResolutionKind::impulse_queue;
+    settings.resolution.restitution_law = law;
+    World world(settings);
+    world.setChecks(Checks::on);
+    const MaterialId oak = world.addMaterial({"oak", 800});
+    world.setDefaultPairProperties({.restitution = 0.9, .static_friction = 1, .kinetic_friction = 1});
+    world.addBody({.shape = HalfSpace{}, .material = oak, .fixed = true});
+    const double slope = 0.7;
+    const Pose pose{Vec3(0, 0, 0.5 * std::sin(slope) + 0.1001),
+                    Quat(Eigen::AngleAxisd(M_PI / 2 - slope, Vec3::UnitY()))};
+    world.addBody({.shape = Capsule{0.1, 1}, .material = oak, .pose = pose, .linear_velocity = Vec3(0.5, 0, -1)});
+    const double before = world.kineticEnergy();
+    for (int i = 0; i < 10; ++i) world.step();
+    return {before, world.kineticEnergy()};
+}
+
+TEST(StateChecks, LetNewtonsLawOfImpactRaiseTheEnergy) {
+    const auto [before, after] = strikeAskew(RestitutionLaw::newton);
+    EXPECT_GT(after, 1.05 * before);
+    const auto [kept, energetic] = strikeAskew(RestitutionLaw::energetic);
+    EXPECT_LT(energetic, kept);
+}
+
 }  // namespace
 }  // namespace cairn
