@@ -15,6 +15,7 @@ std::vector<double> medians(const std::vector<Json>& repetitions, const char* me
     std::vector<double> result(repetitions.front().at(member).size());
     for (std::size_t i = 0; i < result.size(); ++i) {
         std::vector<double> values;
+        values.reserve(repetitions.size());
         for (const Json& repetition : repetitions) values.push_back(repetition.at(member).at(i).get<double>());
         result[i] = median(std::move(values));
     }
@@ -37,8 +38,10 @@ Series seriesOf(const Results& results, const std::string& key) {
     series.largest_batch = medians(repetitions, "largest_batch");
     series.asleep = medians(repetitions, "asleep");
     std::vector<double> totals;
-    for (const Json& repetition : repetitions)
+    totals.reserve(repetitions.size());
+    for (const Json& repetition : repetitions) {
         totals.push_back(sum(repetition.at("total_ms").get<std::vector<double>>()) / 1000);
+    }
     series.total_s = median(std::move(totals));
     series.bodies = first.at("bodies");
     series.threads = first.at("threads");

@@ -65,13 +65,14 @@ void putPoses(ByteWriter& out, const World& world, const std::vector<BodyId>& bo
     std::vector<std::int16_t> orientation(4 * slots);
     std::vector<std::uint8_t> flags(slots);
     for (const BodyId id : bodies) {
+        const std::size_t slot = id.index;
         const Pose pose = world.pose(id);
-        set(position, 3 * id.index, pose.position);
+        set(position, 3 * slot, pose.position);
         const Quat& q = pose.orientation;
         const std::array parts = {q.x(), q.y(), q.z(), q.w()};
-        for (std::size_t k = 0; k < 4; ++k) orientation[4 * id.index + k] = packed(parts[k]);
-        flags[id.index] = static_cast<std::uint8_t>(flag_present | (world.isAsleep(id) ? flag_asleep : 0) |
-                                                    (world.isFixed(id) ? flag_fixed : 0));
+        for (std::size_t k = 0; k < 4; ++k) orientation[4 * slot + k] = packed(parts[k]);
+        flags[slot] = static_cast<std::uint8_t>(flag_present | (world.isAsleep(id) ? flag_asleep : 0) |
+                                                (world.isFixed(id) ? flag_fixed : 0));
     }
     putSection(out, Section::position, position);
     putSection(out, Section::orientation, orientation);
@@ -151,12 +152,13 @@ void putTraces(ByteWriter& out, const World& world, const std::vector<BodyId>& b
     Traces traces{std::vector<std::int8_t>(slots, -1), std::vector<std::int16_t>(slots, -1),
                   std::vector<float>(6 * slots), std::vector<float>(3 * slots)};
     for (const BodyId id : bodies) {
+        const std::size_t slot = id.index;
         const BodyTrace trace = world.trace(id);
-        traces.level[id.index] = static_cast<std::int8_t>(std::clamp(trace.level, -1, 127));
-        traces.stage[id.index] = static_cast<std::int16_t>(std::clamp(trace.shock_stage, -1, 32767));
-        set(traces.bounds, 6 * id.index, trace.bounds_lower);
-        set(traces.bounds, 6 * id.index + 3, trace.bounds_upper);
-        set(traces.moves, 3 * id.index, trace.correction);
+        traces.level[slot] = static_cast<std::int8_t>(std::clamp(trace.level, -1, 127));
+        traces.stage[slot] = static_cast<std::int16_t>(std::clamp(trace.shock_stage, -1, 32767));
+        set(traces.bounds, 6 * slot, trace.bounds_lower);
+        set(traces.bounds, 6 * slot + 3, trace.bounds_upper);
+        set(traces.moves, 3 * slot, trace.correction);
     }
     if ((layers & bit(Layer::level)) != 0) putSection(out, Section::level, traces.level);
     if ((layers & bit(Layer::stage)) != 0) putSection(out, Section::stage, traces.stage);

@@ -61,6 +61,7 @@ Process::Process(const std::vector<std::string>& command, Input input, Output ou
     // A group of its own: a browser has many processes, and Ctrl-C is for us.
     posix_spawnattr_setflags(&plan.attributes, POSIX_SPAWN_SETPGROUP);
     std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
     for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
     const int error = posix_spawnp(&pid_, arguments[0], &plan.files, &plan.attributes, arguments.data(), environ);
@@ -119,8 +120,8 @@ std::string findProgram(const std::vector<std::string>& names) {
     for (const std::string& name : names) {
         std::istringstream folders(path == nullptr ? "" : path);
         for (std::string folder; std::getline(folders, folder, ':');) {
-            const std::string file = folder + "/" + name;
-            if (access(file.c_str(), X_OK) == 0) return file;
+            folder.append("/").append(name);
+            if (access(folder.c_str(), X_OK) == 0) return folder;
         }
     }
     return {};

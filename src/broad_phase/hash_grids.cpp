@@ -96,7 +96,7 @@ void HashGrids::enterBlocks(const BroadPhaseInput& input) {
     address_.resize(slots);
     moved_.assign(levels_.levels(), 0);
     for (BodyIndex i = 0; i < slots; ++i) {
-        const int on_level = level[i];
+        const auto on_level = level[i];
         if (on_level == GridLevels::apart) apart_.push_back(i);
         if (on_level < 0) continue;
         const auto own_level = static_cast<std::size_t>(on_level);

@@ -28,6 +28,7 @@ double waveSpeed(const Settings& settings, double gap, const Plan& plan) {
     world.addBody(ground);
     const double pitch = gap + domino.x();
     std::vector<BodyId> row;
+    row.reserve(dominoes);
     for (int i = 0; i < dominoes; ++i) {
         row.push_back(world.addBody(body(Box{domino}, 0.01, Vec3(i * pitch, 0, domino.z() / 2))));
     }

@@ -14,6 +14,7 @@ Standing stand(const Settings& settings, int boxes, double duration, double pati
     World world = makeWorld(settings, Vec3(0, 0, -g), contactLaw(0.25, 0.5));
     const BodyId ground = addPlane(world);
     std::vector<BodyId> bodies;
+    bodies.reserve(static_cast<std::size_t>(boxes));
     for (int i = 0; i < boxes; ++i) {
         bodies.push_back(world.addBody(body(Box{Vec3::Constant(edge)}, mass, Vec3(0, 0, edge * (i + 0.5)))));
     }
