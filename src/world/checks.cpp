@@ -58,14 +58,23 @@ void checkBody(const WorldState& world, BodyIndex i) {
     }
 }
 
+std::string titleOf(std::size_t index, const Contact& c) {
+    return fmt::format("contact {} of bodies {} and {}", index, c.a, c.b);
+}
+
+void checkBodiesOf(const WorldState& world, std::size_t index) {
+    const Contact& c = world.data.contacts[index];
+    const BodyStorage& b = world.bodies;
+    const bool known = c.a < c.b && c.b < b.slots() && b.kind[c.a] != BodyKind::hole && b.kind[c.b] != BodyKind::hole;
+    if (!known) fail(world, titleOf(index, c) + " names bodies that are not in the world");
+}
+
 void checkContact(const WorldState& world, std::size_t index) {
     const std::vector<Contact>& contacts = world.data.contacts;
     const Contact& c = contacts[index];
-    const BodyStorage& b = world.bodies;
     // Written only when it is needed: that takes longer than all checks together.
-    const auto title = [&] { return fmt::format("contact {} of bodies {} and {}", index, c.a, c.b); };
-    const bool known = c.a < c.b && c.b < b.slots() && b.kind[c.a] != BodyKind::hole && b.kind[c.b] != BodyKind::hole;
-    if (!known) fail(world, title() + " names bodies that are not in the world");
+    const auto title = [&] { return titleOf(index, c); };
+    checkBodiesOf(world, index);
     if (!(std::abs(c.normal.norm() - 1) <= unit_error)) {
         fail(world, fmt::format("{} has a normal of length {}, not 1", title(), c.normal.norm()));
     }
@@ -96,6 +105,7 @@ void checkBatches(const WorldState& world) {
         }
     }
     for (std::size_t i = 0; i < contacts.size(); ++i) {
+        checkBodiesOf(world, i);
         for (const BodyIndex body : {contacts[i].a, contacts[i].b}) {
             if (world.bodies.kind[body] != BodyKind::dynamic) continue;
             if (batch_of_body[body] != batches.batch_of_contact[i]) {
