@@ -53,9 +53,8 @@ H5FD_t* openFile(const char* name, unsigned, hid_t access, haddr_t) {
         info->state->error = errno;
         return nullptr;
     }
-    auto kept = std::make_unique<std::vector<KeptWrite>>();
-    auto file = std::make_unique<OpenFile>(OpenFile{H5FD_t{}, descriptor, 0, 0, info->state, kept.get()});
-    kept.release();
+    auto file = std::make_unique<OpenFile>(OpenFile{H5FD_t{}, descriptor, 0, 0, info->state, nullptr});
+    file->kept = std::make_unique<std::vector<KeptWrite>>().release();
     return &file.release()->base;
 }
 
