@@ -120,6 +120,7 @@ int readNumber(std::string_view name, std::string_view text, const Parameter& pa
 
 std::vector<BuiltInScene> builtInScenes() {
     std::vector<BuiltInScene> scenes;
+    scenes.reserve(std::size(entries));
     for (const Entry& entry : entries) scenes.push_back(entry.scene);
     return scenes;
 }
@@ -133,6 +134,7 @@ Scene builtInScene(std::string_view name) {
     const Entry* const entry = findEntry(parts.front());
     if (entry == nullptr) {
         std::vector<std::string_view> names;
+        names.reserve(std::size(entries));
         for (const Entry& known : entries) names.push_back(known.scene.name);
         throw InputError(fmt::format("'{}' is not a built-in scene; built in are {}", name, fmt::join(names, ", ")));
     }
