@@ -14,12 +14,6 @@ const std::map<std::string, std::string>& explanations() {
          "Our walls have fewer contacts to go through: about 640 per time step at this maximum. The thesis does not "
          "say "
          "how many it had, nor at how many points two faces touch."},
-        {"5.4/well324/fewer_iterations",
-         "While balls pour in (until step 60) it is as in the thesis; later the pile in the well creeps, which takes "
-         "about as many iterations in either order."},
-        {"5.4/well324/speedup",
-         "The creeping pile of the second half takes about as many iterations in either order, and the first of a "
-         "list is found faster than the fastest contact."},
         {"5.4//speedup",
          "An iteration costs so little here that finding the fastest contact takes a larger part of it than in the "
          "thesis, and finding and preparing contacts costs the same in either order."},

@@ -19,7 +19,7 @@ const ThesisMachine i7_940{"Core i7 940", 4, rating_i7_940};
 double quickDuration(const Run& run) {
     if (run.scene == "cage2816") return 1.2;
     if (run.preset == Preset::accuracy) return run.scene == "cage384" ? 1.5 : 1.2;
-    if (run.variant == Variant::greedy || run.variant == Variant::first_entry) return 1.5;
+    if (run.variant == Variant::greedy || run.variant == Variant::latest_first) return 1.5;
     if (run.scene == "stacks8" || run.scene == "well392") return 2;
     return 10;
 }
@@ -27,7 +27,7 @@ double quickDuration(const Run& run) {
 double weightOf(const Run& run) {
     const double scene = thesisScene(run.scene).weight;
     if (run.preset == Preset::accuracy) return 25 * scene;
-    if (run.variant == Variant::first_entry) return 5 * scene;
+    if (run.variant == Variant::latest_first) return 5 * scene;
     if (run.variant == Variant::greedy) return 2 * scene;
     return scene;
 }
@@ -38,8 +38,8 @@ const char* nameOf(Variant variant) {
             return "-undamped";
         case Variant::greedy:
             return "-greedy";
-        case Variant::first_entry:
-            return "-first_entry";
+        case Variant::latest_first:
+            return "-latest_first";
         case Variant::plain:
             break;
     }

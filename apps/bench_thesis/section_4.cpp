@@ -36,14 +36,14 @@ Run ordered(const std::string& scene, const Plan& plan, Variant variant) {
     return run;
 }
 
-void addFigures(SectionResult& result, const Published& thesis, const Series& greedy, const Series& first) {
+void addFigures(SectionResult& result, const Published& thesis, const Series& greedy, const Series& latest) {
     const std::string id = fmt::format("5.4/{}", thesis.scene);
     result.figures.push_back({id + "/iterations",
                               thesis.figure_iterations,
                               fmt::format("{}, iterations", thesis.scene),
                               "simulation step (1/30 s)",
                               "iterations per simulation step",
-                              {{"highest closing speed", greedy.iterations}, {"first of the list", first.iterations}},
+                              {{"highest closing speed", greedy.iterations}, {"latest to close", latest.iterations}},
                               {{fmt::format("thesis, most with highest closing speed {:.0f}", thesis.most_iterations),
                                 thesis.most_iterations}},
                               Scale::logarithmic});
@@ -53,7 +53,7 @@ void addFigures(SectionResult& result, const Published& thesis, const Series& gr
          fmt::format("{}, time", thesis.scene),
          "simulation step (1/30 s)",
          "time per simulation step [ms]",
-         {{"highest closing speed", greedy.total_ms}, {"first of the list", first.total_ms}},
+         {{"highest closing speed", greedy.total_ms}, {"latest to close", latest.total_ms}},
          {{fmt::format("thesis, longest step with highest closing speed {} ms", thesis.most_ms), thesis.most_ms}},
          Scale::logarithmic});
 }
@@ -61,16 +61,16 @@ void addFigures(SectionResult& result, const Published& thesis, const Series& gr
 void addScene(SectionResult& result, const Published& thesis, const Plan& plan, const Results& results) {
     const ThesisScene& scene = thesisScene(thesis.scene);
     const Series greedy = seriesOf(results, keyOf(ordered(scene.name, plan, Variant::greedy)));
-    const Series first = seriesOf(results, keyOf(ordered(scene.name, plan, Variant::first_entry)));
-    const double part = sum(greedy.iterations) / sum(first.iterations);
+    const Series latest = seriesOf(results, keyOf(ordered(scene.name, plan, Variant::latest_first)));
+    const double part = sum(greedy.iterations) / sum(latest.iterations);
     const double fewer = 100 * (1 - part);
-    const double speedup = first.total_s / greedy.total_s;
-    const BestStep iterations = bestStep(first.iterations, greedy.iterations, ratio_floor);
-    const BestStep time = bestStep(first.total_ms, greedy.total_ms, ratio_floor);
+    const double speedup = latest.total_s / greedy.total_s;
+    const BestStep iterations = bestStep(latest.iterations, greedy.iterations, ratio_floor);
+    const BestStep time = bestStep(latest.total_ms, greedy.total_ms, ratio_floor);
     const std::string id = fmt::format("5.4/{}", scene.name);
     result.entries.push_back(
         {id + "/fewer_iterations", rowText(scene, "fewer iterations"), "%", thesis.fewer, fewer,
-         fmt::format("{:.0f} against {:.0f} in the whole run", sum(greedy.iterations), sum(first.iterations))});
+         fmt::format("{:.0f} against {:.0f} in the whole run", sum(greedy.iterations), sum(latest.iterations))});
     result.entries.push_back({id + "/speedup", rowText(scene, "speed-up"), "", thesis.speedup, speedup, ""});
     result.entries.push_back({id + "/most_iterations", rowText(scene, "most iterations in a simulation step"), "",
                               thesis.most_iterations, largest(greedy.iterations), "highest closing speed"});
@@ -78,7 +78,7 @@ void addScene(SectionResult& result, const Published& thesis, const Plan& plan, 
                               thesis.best_iterations, iterations.ratio, fmt::format("step {}", iterations.step)});
     result.entries.push_back({id + "/best_step_time", rowText(scene, "best step, speed-up"), "", thesis.best_time,
                               time.ratio, fmt::format("step {}", time.step)});
-    addFigures(result, thesis, greedy, first);
+    addFigures(result, thesis, greedy, latest);
     result.checks.push_back(
         {scene.name + ": the highest closing speed needs at most half the iterations", part <= far_fewer});
     if (plan.extent == Extent::full) {
@@ -99,12 +99,15 @@ Section processingOrder(const Plan& plan) {
     Section section{
         "5.4",
         "Contact processing order",
-        "Always the contact with the highest closing speed, against the first of an unsorted list; unlimited "
-        "iterations and no shock propagation, so that every contact ends below 83.4 µm/s.",
+        "Always the contact with the highest closing speed, against the one that began to close last; unlimited "
+        "iterations and no shock propagation, so that every contact ends below 83.4 µm/s. The thesis says \"any "
+        "arbitrary closing contact\"; which one matters: against the first of its unsorted array it is 86 % fewer "
+        "iterations in stacks5 and 73 % in well324, against the last of that array 88 and 77 %, against the one with "
+        "the lowest number 79 and 73 %, and against the one that began to close first 49 and 4 %.",
         {},
         {}};
     for (const Published& thesis : published) {
-        for (const Variant variant : {Variant::greedy, Variant::first_entry}) {
+        for (const Variant variant : {Variant::greedy, Variant::latest_first}) {
             section.experiments.push_back(experimentOf(ordered(thesis.scene, plan, variant), plan));
         }
     }

@@ -48,11 +48,11 @@ Settings thesisSettings(Preset preset, std::int64_t threads, Variant variant) {
         setAccuracy(settings);
     }
     if (variant == Variant::undamped) settings.gravity_damping.damping = 0;
-    if (variant == Variant::greedy || variant == Variant::first_entry) {
+    if (variant == Variant::greedy || variant == Variant::latest_first) {
         settings.resolution.global_iterations = 0;
         settings.resolution.shock_propagation = false;
     }
-    if (variant == Variant::first_entry) settings.resolution.order = ResolutionOrder::arbitrary;
+    if (variant == Variant::latest_first) settings.resolution.order = ResolutionOrder::arbitrary;
     return settings;
 }
 

@@ -9,10 +9,10 @@ namespace cairn::thesis {
 
 /// What an experiment changes of the thesis's settings.
 enum class Variant {
-    plain,       ///< nothing
-    undamped,    ///< §5.3: gravity damping off
-    greedy,      ///< §5.4: unlimited iterations, no shock propagation, highest closing speed first
-    first_entry  ///< §5.4: the same with the first entry of the list
+    plain,        ///< nothing
+    undamped,     ///< §5.3: gravity damping off
+    greedy,       ///< §5.4: unlimited iterations, no shock propagation, highest closing speed first
+    latest_first  ///< §5.4: the same with the contact that began to close last
 };
 
 /// The settings of the benchmarks. @param threads ≥ 1 @source thesis §5.1, §5.3, §5.4, §5.5

@@ -99,7 +99,7 @@ void HashGrids::enterBlocks(const BroadPhaseInput& input) {
         const auto on_level = level[i];
         if (on_level == GridLevels::apart) apart_.push_back(i);
         if (on_level < 0) continue;
-        const auto own_level = static_cast<std::size_t>(on_level);
+        const auto own_level = static_cast<std::uint8_t>(on_level);
         const CellCoordinates at = cellOf(input.bounds[i].lower, levels_.edgeInv(own_level));
         const std::uint32_t block = table_.enter({at.x >> 2, at.y >> 2, at.z >> 2, on_level});
         const auto position = static_cast<unsigned>((at.x & 3) + 4 * (at.y & 3) + 16 * (at.z & 3));

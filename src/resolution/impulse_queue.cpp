@@ -39,7 +39,7 @@ void QueueSolver::begin(const BatchView& view, std::span<const Contact> contacts
 
 RunOutcome QueueSolver::run(std::span<const std::uint32_t> members, double iterations_per_contact) {
     const std::int64_t limit = iterationLimit(iterations_per_contact, members.size());
-    if (settings_.order == ResolutionOrder::arbitrary) return runWith(first_entry_queue_, members, limit);
+    if (settings_.order == ResolutionOrder::arbitrary) return runWith(latest_first_queue_, members, limit);
     if (static_cast<std::int64_t>(members.size()) > settings_.queue_switch) {
         return runWith(tournament_queue_, members, limit);
     }

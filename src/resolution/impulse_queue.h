@@ -64,7 +64,7 @@ class QueueSolver {
     std::vector<double> delta_;
     ArrayQueue array_queue_;
     TournamentQueue tournament_queue_;
-    FirstEntryQueue first_entry_queue_;
+    LatestFirstQueue latest_first_queue_;
 };
 
 }  // namespace cairn

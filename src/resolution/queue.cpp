@@ -13,6 +13,41 @@ void ClosingList::reset(std::span<const double> delta, double threshold) {
     place_.assign(delta.size(), no_contact);
 }
 
+void LatestFirstQueue::reset(const ContactLists& lists, std::span<const double> delta, double threshold) {
+    lists_ = &lists;
+    delta_ = delta;
+    threshold_ = threshold;
+    links_.assign(delta.size(), {});
+    latest_ = no_contact;
+}
+
+void LatestFirstQueue::refresh(std::uint32_t contact) {
+    const bool closes = delta_[contact] < threshold_;
+    if (closes == links_[contact].closes) return;
+    if (closes) {
+        append(contact);
+    } else {
+        remove(contact);
+    }
+}
+
+void LatestFirstQueue::append(std::uint32_t contact) {
+    links_[contact] = {latest_, no_contact, true};
+    if (latest_ != no_contact) links_[latest_].later = contact;
+    latest_ = contact;
+}
+
+void LatestFirstQueue::remove(std::uint32_t contact) {
+    const auto [earlier, later, closes] = links_[contact];
+    if (earlier != no_contact) links_[earlier].later = later;
+    if (later != no_contact) {
+        links_[later].earlier = earlier;
+    } else {
+        latest_ = earlier;
+    }
+    links_[contact] = {};
+}
+
 void ArrayQueue::reset(const ContactLists& lists, std::span<const double> delta, double threshold) {
     list_.reset(delta, threshold);
     lists_ = &lists;

@@ -106,23 +106,35 @@ class ArrayQueue {
     QueueEntry last_;     ///< what next() gave last: everything not refreshed since comes after it
 };
 
-/// The comparison of §5.4: whichever contact stands first in the list.
-class FirstEntryQueue {
+/// The comparison of §5.4, which leaves open which closing contact comes next: the one that began to close last. The
+/// contacts form a chain, the latest at its end, so that everything takes constant time.
+class LatestFirstQueue {
   public:
-    void reset(const ContactLists& lists, std::span<const double> delta, double threshold) {
-        list_.reset(delta, threshold);
-        lists_ = &lists;
-    }
-    void insert(std::uint32_t contact, std::uint32_t) { list_.refresh(contact); }
+    void reset(const ContactLists& lists, std::span<const double> delta, double threshold);
+    void insert(std::uint32_t contact, std::uint32_t) { refresh(contact); }
     void bodyChanged(std::uint32_t body) {
-        for (const std::uint32_t i : (*lists_)[body]) list_.refresh(i);
+        for (const std::uint32_t i : (*lists_)[body]) refresh(i);
     }
-    void contactOpened(std::uint32_t contact) { list_.refresh(contact); }
-    std::uint32_t next() const { return list_.entries().empty() ? no_contact : list_.entries().front().contact; }
+    void contactOpened(std::uint32_t contact) { refresh(contact); }
+    std::uint32_t next() const { return latest_; }
 
   private:
-    ClosingList list_;
+    /// The neighbours of a contact in the chain.
+    struct Link {
+        std::uint32_t earlier = no_contact;
+        std::uint32_t later = no_contact;
+        bool closes = false;
+    };
+
+    void refresh(std::uint32_t contact);
+    void append(std::uint32_t contact);
+    void remove(std::uint32_t contact);
+
     const ContactLists* lists_ = nullptr;
+    std::span<const double> delta_;
+    double threshold_ = 0;
+    std::vector<Link> links_;  ///< [contacts]
+    std::uint32_t latest_ = no_contact;
 };
 
 /// For many contacts: a tree over the bodies. Each body notes the smallest δ of its contacts as it was when the body

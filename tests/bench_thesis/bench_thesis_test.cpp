@@ -69,7 +69,7 @@ TEST(ThesisSettings, AreThoseOfTheHighAccuracyBenchmarks) {
 
 TEST(ThesisSettings, VariantsChangeWhatTheyAreNamedFor) {
     EXPECT_EQ(thesisSettings(Preset::performance, 1, Variant::undamped).gravity_damping.damping, 0);
-    for (const Variant variant : {Variant::greedy, Variant::first_entry}) {
+    for (const Variant variant : {Variant::greedy, Variant::latest_first}) {
         const Settings s = thesisSettings(Preset::performance, 1, variant);
         EXPECT_EQ(s.resolution.global_iterations, 0);
         EXPECT_FALSE(s.resolution.shock_propagation);

@@ -144,18 +144,29 @@ TYPED_TEST(OrderedQueue, ForgetsEverythingWhenReset) {
     EXPECT_EQ(queue.next(), 1U);
 }
 
-TEST(FirstEntryQueue, GivesTheFirstOfTheListAndFillsHolesWithTheLast) {
+TEST(LatestFirstQueue, GivesTheContactThatBeganToCloseLast) {
     Contacts contacts = alone({0, -1, -3, -2});
-    FirstEntryQueue queue;
+    LatestFirstQueue queue;
     queue.reset(contacts.lists, contacts.delta, threshold);
+    EXPECT_EQ(queue.next(), no_contact);
     contacts.insertInto(queue);
-    EXPECT_EQ(queue.next(), 1U);  // list 1, 2, 3
-    contacts.delta[1] = 0;
-    queue.contactOpened(1);
-    EXPECT_EQ(queue.next(), 3U);  // list 3, 2 (Figure 25)
-    contacts.delta[0] = -9;
+    EXPECT_EQ(queue.next(), 3U);  // chain 1, 2, 3
+    contacts.delta[2] = 0;
+    queue.contactOpened(2);
+    contacts.delta[1] = -9;
+    queue.bodyChanged(1);
+    EXPECT_EQ(queue.next(), 3U);  // chain 1, 3
+    contacts.delta[3] = 0;
+    queue.contactOpened(3);
+    EXPECT_EQ(queue.next(), 1U);
+    contacts.delta[0] = -1;
     queue.bodyChanged(0);
-    EXPECT_EQ(queue.next(), 3U);  // list 3, 2, 0 (Figure 24)
+    EXPECT_EQ(queue.next(), 0U);  // chain 1, 0
+    contacts.delta[1] = 0;
+    queue.bodyChanged(1);
+    contacts.delta[0] = 0;
+    queue.bodyChanged(0);
+    EXPECT_EQ(queue.next(), no_contact);
 }
 
 }  // namespace
