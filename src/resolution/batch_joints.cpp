@@ -30,6 +30,12 @@ Twist directChange(const LocalBody& body, const Vec3& r, const Vec3& impulse) {
     return {change.v, change.w};
 }
 
+/// The most that a contact would yield along one of its axes without joints [1/kg].
+double largestYield(const ContactFrame& contact, std::span<const LocalBody> bodies) {
+    const Symmetric3 k = cairn::collisionMatrix(contact, bodies[contact.a], bodies[contact.b]);
+    return std::max({k.xx, k.yy, k.zz});
+}
+
 void add(const Twist& change, LocalBody& body) {
     apply({change.v, change.w}, body);
 }
@@ -204,8 +210,7 @@ Symmetric3 BatchJoints::collisionMatrix(const ContactFrame& contact, std::span<c
         respond(contact, contact.basis.col(i), Vec3::Zero(), bodies);
         k.col(i) = contact.basis.transpose() * relativeChange(contact).v;
     }
-    const Symmetric3 unjointed = cairn::collisionMatrix(contact, bodies[contact.a], bodies[contact.b]);
-    const double rest = blocked * std::max({unjointed.xx, unjointed.yy, unjointed.zz});
+    const double rest = blocked * largestYield(contact, bodies);
     if (!(k(0, 0) > rest)) return {};
     return Symmetric3::from(0.5 * (k + k.transpose()) + rest * Mat3::Identity());
 }
@@ -214,11 +219,9 @@ void BatchJoints::setCollisionMatrixOf(ContactFrame& contact, std::span<const Lo
     const Symmetric3 k = collisionMatrix(contact, bodies);
     setCollisionMatrix(contact, k);
     if (!isResolvable(contact)) return;
-    const Symmetric3 unjointed = cairn::collisionMatrix(contact, bodies[contact.a], bodies[contact.b]);
     const Eigen::SelfAdjointEigenSolver<Mat3> solver(k.toMatrix());
     const Vec3& yields = solver.eigenvalues();  // ascending
-    const double least =
-        std::max(hardly * yields[2], hardly_of_unjointed * std::max({unjointed.xx, unjointed.yy, unjointed.zz}));
+    const double least = std::max(hardly * yields[2], hardly_of_unjointed * largestYield(contact, bodies));
     if (!(yields[0] < least)) return;
     const Mat3& directions = solver.eigenvectors();
     contact.k_row = Vec3(k.xx, k.xy, k.xz);
