@@ -71,13 +71,14 @@ struct ResolutionSettings {
     double shock_iterations = 6;     ///< the same limit for each stage of the shock propagation; 0 = unlimited
     std::int64_t queue_switch = 64;  ///< batches with more contacts use the ordered queue (§3.8)
     std::int64_t sweep_limit = 10;   ///< most sweeps (forth and back) of accelerated_sweeps for a batch at rest, ≥ 1
-    std::int64_t moving_sweep_limit = 2;  ///< the same where a contact closes faster than restitution_threshold, ≥ 1
+    std::int64_t moving_sweep_limit = 1;  ///< the same where a contact closes faster than restitution_threshold, ≥ 1
     double sliding_part = 0.03;  ///< and where more than this part of the contacts slide faster, 0 to 1; 1 = never
     /// Batches at rest end after so many visits of contacts (two per sweep) even below their sweep_limit, but not below
     /// moving_sweep_limit; 0 = they do not.
     std::int64_t visit_limit = 80'000;
     double sweep_tolerance = 1e-6;    ///< no more sweeps once a sweep changes no contact's velocity by more [m/s]
     std::int64_t direct_limit = 100;  ///< batches at rest of up to so many bodies may take direct steps; 0 = none
+    double direct_pairs = 1.5;        ///< and of up to so many pairs in touch per body: stacks and chains; 0 = any
     /// accelerated_sweeps leaves sleeping bodies of a batch asleep until their contacts push otherwise than when they
     /// fell asleep, by what would give them this speed [m/s], ≥ 0; 0 = they wake as soon as their batch is resolved.
     double wake_speed = 8.33e-3;

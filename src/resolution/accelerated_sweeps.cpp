@@ -38,6 +38,20 @@ bool hasTwoFrictions(const BatchView& batch, std::span<const Contact> contacts) 
         batch.contacts, [&](std::uint32_t i) { return contacts[i].kinetic_friction < contacts[i].static_friction; });
 }
 
+/// Whether a batch is a stack, a chain or an arch. Where bodies have more neighbours than there they stand on more
+/// contacts than they need, which share the load as their friction allows and not as the stiffest solution wants: then
+/// direct steps only cost time.
+bool isChain(const LocalBatch& local, double most_pairs) {
+    if (most_pairs == 0) return true;
+    std::size_t pairs = 0;
+    for (std::size_t i = 0; i < local.ends.size(); ++i) {
+        const ContactEnds& ends = local.ends[i];
+        if (local.isFixed(ends.a) || local.isFixed(ends.b) || (i > 0 && ends == local.ends[i - 1])) continue;
+        ++pairs;
+    }
+    return static_cast<double>(pairs) <= most_pairs * static_cast<double>(local.dynamic_bodies);
+}
+
 /// Whether some contact closes faster than one at rest does, or more than a part of them slide or separate faster.
 bool isMoving(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies,
               const ResolutionSettings& settings) {
@@ -70,9 +84,10 @@ class AcceleratedSweepsResolution final : public Resolution {
             local_.gatherBodies(batch, contacts, bodies);
         }
         const bool moving = isMoving(batch, contacts, bodies, settings);
-        const Sweeps sweeps{
-            .limit = sweepLimit(batch.contacts.size(), moving, settings),
-            .may_leap = !moving && !framed && local_.dynamic_bodies <= static_cast<std::size_t>(settings.direct_limit)};
+        const Sweeps sweeps{.limit = sweepLimit(batch.contacts.size(), moving, settings),
+                            .may_leap = !moving && !framed &&
+                                        local_.dynamic_bodies <= static_cast<std::size_t>(settings.direct_limit) &&
+                                        isChain(local_, settings.direct_pairs)};
         const bool wide = !framed && !sweeps.may_leap && batch.contacts.size() >= wide_contacts;
         Sweeper& sweeper = *(wide ? static_cast<Sweeper*>(&wide_) : &plain_);
         const SweptBatch swept{local_, batch, contacts, bodies, settings, executor, framed};

@@ -67,18 +67,6 @@ void findBounds(const BodyStorage& bodies, double margin, const Executor& execut
     });
 }
 
-/// Pairs of bodies that are found already are those that they were.
-void findPairs(const BodyStorage& bodies, BroadPhase& broad_phase, const Executor& executor, StepData& data) {
-    broad_phase.findPairs({.kind = bodies.kind, .bounds = data.bounds, .still = data.still.found}, executor,
-                          data.new_pairs);
-    data.found_pairs.clear();
-    for (const BodyPair& pair : data.pairs) {
-        if (areFound(data.still, pair)) data.found_pairs.push_back(pair);
-    }
-    data.pairs.resize(data.new_pairs.size() + data.found_pairs.size());
-    std::ranges::merge(data.new_pairs, data.found_pairs, data.pairs.begin());
-}
-
 /// Contacts of one pair of bodies closer to each other than this part of the smaller body are one, if their directions
 /// are as equal as this cosine: parts of a compound that meet in a face share its corners.
 constexpr double same_place = 1e-3;
@@ -188,19 +176,20 @@ void detect(const BodyStorage& bodies, const MaterialTable& materials, BroadPhas
             const Executor& executor, StepData& data) {
     const double margin = data.still.margin;
     findBounds(bodies, margin, executor, data);
-    findPairs(bodies, broad_phase, executor, data);
+    data.near_pairs.update({bodies.kind, data.bounds, bodies.v, data.still.still}, broad_phase, executor);
+    const std::span<const BodyPair> pairs = data.near_pairs.pairs();
     data.thread_contacts.resize(static_cast<std::size_t>(executor.threads()));
     for (auto& contacts : data.thread_contacts) contacts.clear();
     executor.forBlocks(
-        data.pairs.size(),
+        pairs.size(),
         [&](std::size_t begin, std::size_t end, int thread) {
             if (begin == end) return;
             Manifold manifold;
-            LastContacts last_contacts(data.contacts, data.pairs[begin]);
+            LastContacts last_contacts(data.contacts, pairs[begin]);
             auto& contacts = data.thread_contacts[static_cast<std::size_t>(thread)];
             for (std::size_t i = begin; i < end; ++i) {
-                const BodyPair& pair = data.pairs[i];
-                if (isExcluded(data.excluded, pair)) continue;
+                const BodyPair& pair = pairs[i];
+                if (!data.bounds[pair.a].overlaps(data.bounds[pair.b]) || isExcluded(data.excluded, pair)) continue;
                 const bool found = areFound(data.still, pair);
                 const auto last = found ? last_contacts.of(pair) : std::span<const Contact>();
                 if (last.empty() && !(found && data.still.all_tested)) {

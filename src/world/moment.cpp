@@ -72,7 +72,7 @@ void loadMoment(const MomentState& moment, WorldState& world) {
     // What the last step left for viewers is that of another step.
     world.data.bounds.clear();
     world.data.still.places.clear();
-    world.data.pairs.clear();
+    world.data.near_pairs.forget();
     world.trace.correction.clear();
     world.trace.shock_stage.clear();
 }

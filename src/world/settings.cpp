@@ -151,6 +151,9 @@ const std::vector<SettingField>& fields() {
         plain<&S::resolution, &R::direct_limit>(
             "direct_limit", "resolution", "bodies", 0, 1e6,
             "batches at rest of up to so many bodies are solved directly where sweeps are not enough; 0 = none"),
+        plain<&S::resolution, &R::direct_pairs>(
+            "direct_pairs", "resolution", "per body", 0, 1e6,
+            "and only where at most so many pairs of its bodies touch, as in stacks and chains; 0 = any"),
         plain<&S::resolution, &R::wake_speed>(
             "wake_speed", "resolution", "m/s", 0, 1e3,
             "'accelerated_sweeps' lets bodies sleep until their contacts' push changes by so much; 0 = not"),
@@ -298,6 +301,7 @@ Settings Settings::preset(Preset preset, double steps_per_second, double gravity
         s.resolution.visit_limit = 0;
         s.resolution.sweep_tolerance = 1e-8 * scale;
         s.resolution.direct_limit = 1000;
+        s.resolution.direct_pairs = 0;
         s.resolution.wake_speed = 0.52e-3 * scale;
         s.resolution.rest_speed = 0;
         s.sleep.sleep_threshold = 0.52e-3 * scale;

@@ -50,6 +50,7 @@ Settings settingsOfTheFirstVersion() {
     settings.correction.correction_rounds = 1;
     settings.resolution.moving_sweep_limit = settings.resolution.sweep_limit;
     settings.resolution.sliding_part = 1;
+    settings.resolution.direct_pairs = 0;
     settings.resolution.visit_limit = 0;
     settings.resolution.direct_limit = 0;
     settings.resolution.wake_speed = 0;

@@ -10,6 +10,7 @@
 #include "body/contact.h"
 #include "body/material_table.h"
 #include "broad_phase/broad_phase.h"
+#include "broad_phase/near_pairs.h"
 #include "cairn/world.h"
 #include "correction/correction.h"
 #include "geometry/geometry.h"
@@ -76,11 +77,9 @@ struct FoundContact {
 
 /// The arrays that one stage leaves to the next; nothing else travels between stages. Named with their producer.
 struct StepData {
-    std::vector<Bounds> bounds;         ///< detection: [slots] grown by the contact margin [m, W]
-    std::vector<BodyPair> pairs;        ///< detection: near pairs, sorted
-    std::vector<BodyPair> new_pairs;    ///< detection: those with a body whose contacts are not known yet
-    std::vector<BodyPair> found_pairs;  ///< detection: the others
-    StillBodies still;                  ///< detection: which bodies are where they were
+    std::vector<Bounds> bounds;                              ///< detection: [slots] grown by the contact margin [m, W]
+    NearPairs near_pairs;                                    ///< detection
+    StillBodies still;                                       ///< detection: which bodies are where they were
     std::vector<std::vector<FoundContact>> thread_contacts;  ///< detection: [threads], joined into contacts
     std::vector<Contact> contacts;        ///< detection, changed by correction and resolution: sorted by (a, b)
     ContactsOfBodies contacts_of;         ///< batches: [slots] contact indices

@@ -1,0 +1,76 @@
+#include "broad_phase/near_pairs.h"
+
+#include <algorithm>
+
+namespace cairn {
+
+namespace {
+
+/// Covered bounds are larger by this part of the body's smallest extent, on all sides …
+constexpr double slack = 0.1;
+/// … and by its way in the time that follows [s].
+constexpr double time_ahead = 1.0 / 30;
+
+bool contains(const Bounds& outer, const Bounds& inner) {
+    return (outer.lower.array() <= inner.lower.array()).all() && (inner.upper.array() <= outer.upper.array()).all();
+}
+
+/// Of a body that moves on.
+Bounds boundsAhead(const Bounds& bounds, const Vec3& way) {
+    Bounds ahead = bounds.grown(slack * (bounds.upper - bounds.lower).minCoeff());
+    ahead.lower += way.cwiseMin(0);
+    ahead.upper += way.cwiseMax(0);
+    return ahead;
+}
+
+}  // namespace
+
+void NearPairs::update(const NearPairsInput& input, BroadPhase& broad_phase, const Executor& executor) {
+    if (!findLeft(input, executor)) return;
+    cover(input, executor);
+    broad_phase.findPairs({.kind = input.kind, .bounds = covered_, .still = stays_}, executor, new_pairs_);
+    stay_pairs_.clear();
+    for (const BodyPair& pair : pairs_) {
+        if ((stays_[pair.a] & stays_[pair.b]) != 0) stay_pairs_.push_back(pair);
+    }
+    pairs_.resize(new_pairs_.size() + stay_pairs_.size());
+    std::ranges::merge(new_pairs_, stay_pairs_, pairs_.begin());
+}
+
+void NearPairs::forget() {
+    pairs_.clear();
+    kind_.clear();
+}
+
+/// @return whether a body has left the bounds that it was searched with
+bool NearPairs::findLeft(const NearPairsInput& input, const Executor& executor) {
+    const std::size_t slots = input.kind.size();
+    covered_.resize(slots);
+    kind_.resize(slots, BodyKind::hole);
+    stays_.resize(slots);
+    executor.forBlocks(slots, [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const bool stays =
+                kind_[i] == input.kind[i] && (kind_[i] == BodyKind::hole || contains(covered_[i], input.bounds[i]));
+            stays_[i] = stays ? 1 : 0;
+        }
+    });
+    return std::ranges::find(stays_, 0) != stays_.end();
+}
+
+/// Once a search is due, all that moves gets new bounds, so that the next one is not due soon.
+void NearPairs::cover(const NearPairsInput& input, const Executor& executor) {
+    executor.forBlocks(input.kind.size(), [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (stays_[i] != 0 && (input.still[i] != 0 || input.kind[i] == BodyKind::hole)) continue;
+            stays_[i] = 0;
+            kind_[i] = input.kind[i];
+            if (kind_[i] == BodyKind::hole) continue;
+            const Vec3 way = time_ahead * input.v[i];
+            covered_[i] =
+                kind_[i] == BodyKind::fixed && way.isZero(0) ? input.bounds[i] : boundsAhead(input.bounds[i], way);
+        }
+    });
+}
+
+}  // namespace cairn
