@@ -71,7 +71,9 @@ struct ResolutionSettings {
     double shock_iterations = 6;     ///< the same limit for each stage of the shock propagation; 0 = unlimited
     std::int64_t queue_switch = 64;  ///< batches with more contacts use the ordered queue (§3.8)
     std::int64_t sweep_limit = 10;   ///< most sweeps (forth and back) of accelerated_sweeps for a batch at rest, ≥ 1
-    std::int64_t moving_sweep_limit = 1;  ///< the same where a contact closes faster than restitution_threshold, ≥ 1
+    std::int64_t moving_sweep_limit = 2;  ///< the same where a contact closes faster than restitution_threshold, ≥ 1
+    double small_sweep_part =
+        0.5;                     ///< and of that the part for batches of fewer than 1024 contacts, 0 to 1; at least one
     double sliding_part = 0.03;  ///< and where more than this part of the contacts slide faster, 0 to 1; 1 = never
     /// Batches at rest end after so many visits of contacts (two per sweep) even below their sweep_limit, but not below
     /// moving_sweep_limit; 0 = they do not.

@@ -35,16 +35,6 @@ CellCoordinates cellOf(const Vec3& point, double edge_inv) {
             cellCoordinate(point.z(), edge_inv)};
 }
 
-unsigned atMost(double x, double y) {
-    return x <= y ? 1u : 0u;
-}
-
-/// Bounds::overlaps without branches, since nobody can predict them. @return 0 or 1
-unsigned overlap(const Bounds& p, const Bounds& q) {
-    return atMost(p.lower.x(), q.upper.x()) & atMost(q.lower.x(), p.upper.x()) & atMost(p.lower.y(), q.upper.y()) &
-           atMost(q.lower.y(), p.upper.y()) & atMost(p.lower.z(), q.upper.z()) & atMost(q.lower.z(), p.upper.z());
-}
-
 /// Calls work(position) for each set bit, ascending.
 template <class Work>
 void forEachPosition(std::uint64_t positions, const Work& work) {
@@ -163,7 +153,7 @@ inline void HashGrids::testRow(const Entry& entry, const Range& others, PairBuff
         const Entry& other = entries_[j];
         out[count].a = std::min(entry.body, other.body);
         out[count].b = std::max(entry.body, other.body);
-        count += overlap(entry.bounds, other.bounds) & (entry.moved | other.moved);
+        count += (entry.bounds.overlaps(other.bounds) ? 1U : 0U) & (entry.moved | other.moved);
     }
     found.commit(count);
 }
@@ -261,7 +251,7 @@ void HashGrids::searchCoarserBlock(const Block& block, const Bounds& around, con
     forEachPosition(coarse.occupied & positions, [&](unsigned position) {
         const Cell& other = cells_[coarse.cell(position)];
         for (std::uint32_t i = other.begin; i < other.end; ++i) {
-            if (overlap(entries_[i].bounds, around) == 0 || (block.moved == 0 && entries_[i].moved == 0)) continue;
+            if (!entries_[i].bounds.overlaps(around) || (block.moved == 0 && entries_[i].moved == 0)) continue;
             if (i < other.fixed_begin) {
                 testRow(entries_[i], all, found);
                 continue;
@@ -284,7 +274,7 @@ void HashGrids::searchApart(const BroadPhaseInput& input, std::size_t begin, std
             const bool once = level[i] >= 0 || (level[i] == GridLevels::apart && i > p);
             const bool movable = (!p_fixed || input.kind[i] == BodyKind::dynamic) && !(p_still && input.isStill(i));
             out[count] = {std::min(p, i), std::max(p, i)};
-            count += once && movable ? overlap(bounds, input.bounds[i]) : 0;
+            count += once && movable && bounds.overlaps(input.bounds[i]) ? 1 : 0;
         }
         found.commit(count);
     }

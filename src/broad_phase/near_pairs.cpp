@@ -11,10 +11,6 @@ constexpr double slack = 0.1;
 /// … and by its way in the time that follows [s].
 constexpr double time_ahead = 1.0 / 30;
 
-bool contains(const Bounds& outer, const Bounds& inner) {
-    return (outer.lower.array() <= inner.lower.array()).all() && (inner.upper.array() <= outer.upper.array()).all();
-}
-
 /// Of a body that moves on.
 Bounds boundsAhead(const Bounds& bounds, const Vec3& way) {
     Bounds ahead = bounds.grown(slack * (bounds.upper - bounds.lower).minCoeff());
@@ -51,7 +47,7 @@ bool NearPairs::findLeft(const NearPairsInput& input, const Executor& executor) 
     executor.forBlocks(slots, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             const bool stays =
-                kind_[i] == input.kind[i] && (kind_[i] == BodyKind::hole || contains(covered_[i], input.bounds[i]));
+                kind_[i] == input.kind[i] && (kind_[i] == BodyKind::hole || covered_[i].contains(input.bounds[i]));
             stays_[i] = stays ? 1 : 0;
         }
     });

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -19,6 +20,9 @@ constexpr std::size_t wide_contacts = 320;
 
 /// Batches with at least so many contacts are worth all threads together.
 constexpr std::size_t shared_contacts = 1024;
+
+/// Batches with fewer contacts need fewer sweeps while they move.
+constexpr std::size_t large_contacts = 1024;
 
 /// Plain sweeps before the first direct step: they find out which contacts push and stick.
 constexpr std::int64_t sweeps_before_leap = 3;
@@ -155,10 +159,17 @@ class AcceleratedSweepsResolution final : public Resolution {
 
     /// Batches at rest are swept until they converge, large ones only as far as the budget goes.
     static std::int64_t sweepLimit(std::size_t contacts, bool moving, const ResolutionSettings& settings) {
-        if (moving || contacts == 0) return settings.moving_sweep_limit;
+        if (moving || contacts == 0) return movingSweepLimit(contacts, settings);
         if (settings.visit_limit == 0) return settings.sweep_limit;
         const std::int64_t affordable = settings.visit_limit / (2 * static_cast<std::int64_t>(contacts));
         return std::min(std::max(affordable, settings.moving_sweep_limit), settings.sweep_limit);
+    }
+
+    /// Impulses have a shorter way through small batches.
+    static std::int64_t movingSweepLimit(std::size_t contacts, const ResolutionSettings& settings) {
+        if (contacts >= large_contacts) return settings.moving_sweep_limit;
+        const double part = settings.small_sweep_part * static_cast<double>(settings.moving_sweep_limit);
+        return std::max(std::int64_t{1}, static_cast<std::int64_t>(std::ceil(part)));
     }
 
     /// Takes the direct step, as far as the friction cones allow it. @return whether there is one

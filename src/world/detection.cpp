@@ -189,15 +189,15 @@ void detect(const BodyStorage& bodies, const MaterialTable& materials, BroadPhas
             auto& contacts = data.thread_contacts[static_cast<std::size_t>(thread)];
             for (std::size_t i = begin; i < end; ++i) {
                 const BodyPair& pair = pairs[i];
-                if (!data.bounds[pair.a].overlaps(data.bounds[pair.b]) || isExcluded(data.excluded, pair)) continue;
+                if (isExcluded(data.excluded, pair)) continue;
                 const bool found = areFound(data.still, pair);
                 const auto last = found ? last_contacts.of(pair) : std::span<const Contact>();
-                if (last.empty() && !(found && data.still.all_tested)) {
-                    collidePair(bodies, pair, margin, manifold, contacts);
-                }
                 for (const Contact& c : last) {
                     appendTightly(contacts, {c.a, c.b, c.point, c.normal, c.distance});
                 }
+                const bool known = !last.empty() || (found && data.still.all_tested);
+                if (known || !data.bounds[pair.a].overlaps(data.bounds[pair.b])) continue;
+                collidePair(bodies, pair, margin, manifold, contacts);
             }
         },
         pair_grain);

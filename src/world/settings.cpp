@@ -139,6 +139,9 @@ const std::vector<SettingField>& fields() {
         plain<&S::resolution, &R::moving_sweep_limit>(
             "moving_sweep_limit", "resolution", "", 1, 1e6,
             "the same for batches where a contact closes faster than restitution_threshold"),
+        plain<&S::resolution, &R::small_sweep_part>(
+            "small_sweep_part", "resolution", "", 0, 1,
+            "part of moving_sweep_limit that is for batches of fewer than 1024 contacts, at least one sweep"),
         plain<&S::resolution, &R::sliding_part>(
             "sliding_part", "resolution", "", 0, 1,
             "and for batches where more than this part of the contacts slide faster; 1 = never"),
@@ -297,6 +300,7 @@ Settings Settings::preset(Preset preset, double steps_per_second, double gravity
         s.resolution.shock_propagation = false;
         s.resolution.sweep_limit = 100;
         s.resolution.moving_sweep_limit = 20;
+        s.resolution.small_sweep_part = 1;
         s.resolution.sliding_part = 1;
         s.resolution.visit_limit = 0;
         s.resolution.sweep_tolerance = 1e-8 * scale;

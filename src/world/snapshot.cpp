@@ -49,6 +49,7 @@ Settings settingsOfTheFirstVersion() {
     settings.correction.spread_levels = 0;
     settings.correction.correction_rounds = 1;
     settings.resolution.moving_sweep_limit = settings.resolution.sweep_limit;
+    settings.resolution.small_sweep_part = 1;
     settings.resolution.sliding_part = 1;
     settings.resolution.direct_pairs = 0;
     settings.resolution.visit_limit = 0;
