@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace cairn {
@@ -11,6 +12,13 @@ template <class Element>
 void resizeTightly(std::vector<Element>& array, std::size_t size) {
     if (size > array.capacity()) array.reserve(size + size / 8);
     array.resize(size);
+}
+
+/// The first elements of an array that only grows: they are what was there before.
+template <class Element>
+std::span<Element> firstOf(std::vector<Element>& array, std::size_t size) {
+    if (array.size() < size) resizeTightly(array, size);
+    return std::span(array).first(size);
 }
 
 /// Appends an element likewise.

@@ -41,6 +41,17 @@ void ContactMemory::recallPair(const BodyStorage& bodies, std::span<Contact> con
     }
     const Contact& first = contacts.front();
     const double reach = same_place * std::min(bodies.r_max[first.a], bodies.r_max[first.b]);
+    if (contacts.size() == 1 && remembered.size() == 1) {
+        const Entry& entry = remembered.front();
+        const auto isNear = [&](BodyIndex body, const Vec3& place) {
+            const Vec3 on_body = bodies.position[body] + bodies.orientation[body] * place;
+            return (contacts.front().point - on_body).squaredNorm() < reach * reach;
+        };
+        if (!isNear(entry.a, entry.place_a) && !isNear(entry.b, entry.place_b)) return;
+        contacts.front().last_impulse = entry.impulse;
+        contacts.front().reference_impulse = entry.reference_impulse;
+        return;
+    }
     // Every remembered impulse goes to one contact as a whole: where points of a manifold merge or split, the pair
     // still gets the same push in total.
     for (const Entry& entry : remembered) {

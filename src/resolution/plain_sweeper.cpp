@@ -14,19 +14,30 @@ namespace {
     return impulse.squaredNorm() < std::numeric_limits<double>::infinity();
 }
 
-/// Calls use(a, b) with copies of the bodies at some ends, and writes them back.
+/// Calls use(a, b) with copies of the bodies at some ends, and writes back those that move.
 template <class Use>
 [[gnu::always_inline]] inline void withBodies(const ContactEnds& ends, LocalBatch& local, const Use& use) {
     LocalBody& a = local.bodies[ends.a];
     LocalBody& b = local.bodies[ends.b];
+    if (local.isFixed(ends.a)) {
+        SweptBody<double> swept_b = read(b);
+        use(readFixed(a), swept_b);
+        write(swept_b, b);
+        return;
+    }
     SweptBody<double> swept_a = read(a);
-    SweptBody<double> swept_b = read(b);
-    use(swept_a, swept_b);
+    if (local.isFixed(ends.b)) {
+        use(swept_a, readFixed(b));
+    } else {
+        SweptBody<double> swept_b = read(b);
+        use(swept_a, swept_b);
+        write(swept_b, b);
+    }
     write(swept_a, a);
-    write(swept_b, b);
 }
 
-[[gnu::always_inline]] inline void visit(SweptContact& contact, SweptBody<double>& a, SweptBody<double>& b) {
+template <class A, class B>
+[[gnu::always_inline]] inline void visit(SweptContact& contact, A& a, B& b) {
     const Triple1 impulse = projectedImpulse(contact, relativeVelocity(contact, a, b));
     if (!isFinite(impulse) || !isResolvable(contact)) return;
     push(contact, impulse - contact.impulse, a, b);
@@ -39,7 +50,7 @@ void PlainSweeper::begin(const SweptBatch& swept) {
     const std::size_t count = swept.batch.contacts.size();
     framed_ = swept.framed;
     rolling_.assign(framed_ ? swept.local.rolling.size() : 0, {});
-    resizeTightly(contacts_, count);
+    contacts_ = firstOf(memory_, count);
     pair_begin_.clear();
     for (std::size_t i = 0; i < count; ++i) {
         beginContact(i, swept);
@@ -63,7 +74,7 @@ void PlainSweeper::begin(const SweptBatch& swept) {
 template <class Visit>
 void PlainSweeper::visitPair(std::size_t pair, LocalBatch& local, const Visit& visit) {
     const std::size_t begin = pair_begin_[pair];
-    withBodies(contacts_[begin], local, [&](auto& a, auto& b) { visit(begin, pair_begin_[pair + 1], a, b); });
+    withBodies(contacts_[begin], local, [&](auto&& a, auto&& b) { visit(begin, pair_begin_[pair + 1], a, b); });
 }
 
 void PlainSweeper::beginContact(std::size_t i, const SweptBatch& swept) {
@@ -83,8 +94,8 @@ void PlainSweeper::beginContact(std::size_t i, const SweptBatch& swept) {
         const Mat3 in_contact = local.joints.collisionMatrix(frame, local.bodies).toMatrix();
         k = Symmetric3::from(frame.basis * in_contact * frame.basis.transpose());
     } else {
-        addCollisionMatrix(a.mass_inv, a.inertia_inv, s.r_a, k);
-        addCollisionMatrix(b.mass_inv, b.inertia_inv, s.r_b, k);
+        if (!local.isFixed(s.a)) addCollisionMatrix(a.mass_inv, a.inertia_inv, s.r_a, k);
+        if (!local.isFixed(s.b)) addCollisionMatrix(b.mass_inv, b.inertia_inv, s.r_b, k);
     }
     setInvertible(s, k);
     mendSingular(s);
@@ -146,12 +157,12 @@ void PlainSweeper::visitRolling(SweptContact& contact, const ContactFrame& frame
 
 void PlainSweeper::setImpulse(std::size_t contact, const Triple1& impulse, LocalBatch& local) {
     SweptContact& s = contacts_[contact];
-    withBodies(s, local, [&](auto& a, auto& b) { push(s, impulse - s.impulse, a, b); });
+    withBodies(s, local, [&](auto&& a, auto&& b) { push(s, impulse - s.impulse, a, b); });
     s.impulse = impulse;
 }
 
 void PlainSweeper::note(const SweptBatch&) {
-    resizeTightly(before_, contacts_.size());
+    before_ = firstOf(memory_before_, contacts_.size());
     for (std::size_t i = 0; i < contacts_.size(); ++i) before_[i] = contacts_[i].impulse;
     for (Rolling& r : rolling_) r.before = r.impulse;
 }

@@ -45,11 +45,13 @@ class PlainSweeper final : public Sweeper {
     void settleFrames(const SweptBatch& swept);
 
     bool framed_ = false;                  ///< the batch has frames of the contacts
-    std::vector<SweptContact> contacts_;   ///< in the batch's order
+    std::span<SweptContact> contacts_;     ///< in the batch's order
     std::vector<std::size_t> pair_begin_;  ///< [pairs + 1] contacts next to each other that have the same bodies
     std::vector<Rolling> rolling_;         ///< as LocalBatch::rolling
-    std::vector<Triple1> before_;          ///< [contacts] impulses at the beginning of the sweep [N·s]
+    std::span<Triple1> before_;            ///< [contacts] impulses at the beginning of the sweep [N·s]
     std::vector<Triple1> direction_;       ///< [contacts] [N·s]
+    std::vector<SweptContact> memory_;     ///< contacts_ and more
+    std::vector<Triple1> memory_before_;   ///< before_ and more
 };
 
 }  // namespace cairn

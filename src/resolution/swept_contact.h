@@ -49,6 +49,16 @@ struct SweptBody {
 /// sweeps.
 constexpr int sliding_rounds = 2;
 
+/// The same of a body that no impulse moves.
+template <class Number>
+struct SweptFixedBody {
+    Triple<Number> v;  ///< [m/s, W]
+    Triple<Number> w;  ///< [rad/s, W]
+};
+
+inline SweptFixedBody<double> readFixed(const LocalBody& body) {
+    return {Triple1(body.v), Triple1(body.w)};
+}
 inline SweptBody<double> read(const LocalBody& body) {
     return {Triple1(body.v), Triple1(body.w), body.mass_inv, body.inertia_inv};
 }
@@ -116,22 +126,35 @@ inline bool isResolvable(const SweptContact& contact) {
 }
 
 /// ϑA − ϑB [m/s, W]. @source thesis (3.4.1), (3.4.2)
-template <class Contact>
-[[gnu::always_inline]] inline typename Contact::Vector relativeVelocity(const Contact& contact,
-                                                                        const SweptBody<typename Contact::Number>& a,
-                                                                        const SweptBody<typename Contact::Number>& b) {
+template <class Contact, class A, class B>
+[[gnu::always_inline]] inline typename Contact::Vector relativeVelocity(const Contact& contact, const A& a,
+                                                                        const B& b) {
     return (a.v + a.w.cross(contact.r_a)) - (b.v + b.w.cross(contact.r_b));
 }
 
+template <class Number>
+[[gnu::always_inline]] inline void receive(const Triple<Number>& impulse, const Triple<Number>& r,
+                                           SweptBody<Number>& body) {
+    body.v += body.mass_inv * impulse;
+    body.w += body.inertia_inv * r.cross(impulse);
+}
+template <class Number>
+[[gnu::always_inline]] inline void give(const Triple<Number>& impulse, const Triple<Number>& r,
+                                        SweptBody<Number>& body) {
+    body.v -= body.mass_inv * impulse;
+    body.w -= body.inertia_inv * r.cross(impulse);
+}
+template <class Number>
+[[gnu::always_inline]] inline void receive(const Triple<Number>&, const Triple<Number>&,
+                                           const SweptFixedBody<Number>&) {}
+template <class Number>
+[[gnu::always_inline]] inline void give(const Triple<Number>&, const Triple<Number>&, const SweptFixedBody<Number>&) {}
+
 /// @param impulse on A [N·s]
-template <class Contact>
-[[gnu::always_inline]] inline void push(const Contact& contact, const typename Contact::Vector& impulse,
-                                        SweptBody<typename Contact::Number>& a,
-                                        SweptBody<typename Contact::Number>& b) {
-    a.v += a.mass_inv * impulse;
-    a.w += a.inertia_inv * contact.r_a.cross(impulse);
-    b.v -= b.mass_inv * impulse;
-    b.w -= b.inertia_inv * contact.r_b.cross(impulse);
+template <class Contact, class A, class B>
+[[gnu::always_inline]] inline void push(const Contact& contact, const typename Contact::Vector& impulse, A& a, B& b) {
+    receive(impulse, contact.r_a, a);
+    give(impulse, contact.r_b, b);
 }
 
 /// Whether a contact that pushes slides. @param threshold of the resolution [m/s]

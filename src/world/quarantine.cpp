@@ -9,9 +9,10 @@ namespace cairn {
 
 namespace {
 
-/// False for what is not a number, too: comparisons with it are false.
+/// False for what is not a number, too: comparisons with it are false. Without branches, since it is true nearly always.
 bool isWithin(const Vec3& u, double limit) {
-    return std::abs(u.x()) <= limit && std::abs(u.y()) <= limit && std::abs(u.z()) <= limit;
+    return static_cast<int>(std::abs(u.x()) <= limit) & static_cast<int>(std::abs(u.y()) <= limit) &
+           static_cast<int>(std::abs(u.z()) <= limit);
 }
 
 bool isSound(const BodyStorage& bodies, std::size_t i) {
