@@ -2,14 +2,16 @@
 
 #include <algorithm>
 
+#include "math/arrays.h"
+
 namespace cairn {
 
 namespace {
 
 /// Covered bounds are larger by this part of the body's smallest extent, on all sides …
-constexpr double slack = 0.1;
+constexpr double slack = 0.15;
 /// … and by its way in the time that follows [s].
-constexpr double time_ahead = 1.0 / 30;
+constexpr double time_ahead = 1.0 / 60;
 
 /// Of a body that moves on.
 Bounds boundsAhead(const Bounds& bounds, const Vec3& way) {
@@ -19,18 +21,28 @@ Bounds boundsAhead(const Bounds& bounds, const Vec3& way) {
     return ahead;
 }
 
+/// Adds sorted pairs to sorted pairs, from behind, so that nothing is written over before its turn.
+void merge(std::span<const BodyPair> added, std::vector<BodyPair>& pairs) {
+    std::size_t left = pairs.size();
+    resizeTightly(pairs, pairs.size() + added.size());
+    for (std::size_t place = pairs.size(); !added.empty(); --place) {
+        if (left > 0 && added.back() < pairs[left - 1]) {
+            pairs[place - 1] = pairs[--left];
+        } else {
+            pairs[place - 1] = added.back();
+            added = added.first(added.size() - 1);
+        }
+    }
+}
+
 }  // namespace
 
 void NearPairs::update(const NearPairsInput& input, BroadPhase& broad_phase, const Executor& executor) {
     if (!findLeft(input, executor)) return;
     cover(input, executor);
     broad_phase.findPairs({.kind = input.kind, .bounds = covered_, .still = stays_}, executor, new_pairs_);
-    stay_pairs_.clear();
-    for (const BodyPair& pair : pairs_) {
-        if ((stays_[pair.a] & stays_[pair.b]) != 0) stay_pairs_.push_back(pair);
-    }
-    pairs_.resize(new_pairs_.size() + stay_pairs_.size());
-    std::ranges::merge(new_pairs_, stay_pairs_, pairs_.begin());
+    std::erase_if(pairs_, [&](const BodyPair& pair) { return (stays_[pair.a] & stays_[pair.b]) == 0; });
+    merge(new_pairs_, pairs_);
 }
 
 void NearPairs::forget() {

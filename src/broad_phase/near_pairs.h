@@ -36,11 +36,10 @@ class NearPairs {
     void cover(const NearPairsInput& input, const Executor& executor);
 
     std::vector<BodyPair> pairs_;
-    std::vector<Bounds> covered_;       ///< [slots] bounds of the last search [m, W]
-    std::vector<BodyKind> kind_;        ///< [slots] at the last search
-    std::vector<std::uint8_t> stays_;   ///< [slots] 1 = within covered_
-    std::vector<BodyPair> new_pairs_;   ///< those with a body whose covered_ is new
-    std::vector<BodyPair> stay_pairs_;  ///< the others
+    std::vector<Bounds> covered_;      ///< [slots] bounds of the last search [m, W]
+    std::vector<BodyKind> kind_;       ///< [slots] at the last search
+    std::vector<std::uint8_t> stays_;  ///< [slots] 1 = within covered_
+    std::vector<BodyPair> new_pairs_;  ///< those with a body whose covered_ is new
 };
 
 }  // namespace cairn

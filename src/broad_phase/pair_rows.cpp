@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "math/arrays.h"
+
 namespace cairn {
 
 namespace {
@@ -32,7 +34,8 @@ void sortRow(BodyPair* begin, BodyPair* end) {
 }  // namespace
 
 void PairBuffer::grow(std::size_t needed) {
-    storage_.resize(std::max({needed, 2 * storage_.size(), std::size_t{64}}));
+    resizeTightly(storage_, std::max(needed, std::size_t{64}));
+    storage_.resize(storage_.capacity());
 }
 
 void PairRows::sort(std::span<const PairBuffer> parts, std::size_t slots, const Executor& executor,
@@ -43,7 +46,7 @@ void PairRows::sort(std::span<const PairBuffer> parts, std::size_t slots, const 
     const Executor& workers = total < serial_limit ? alone : executor;
 
     count(parts, slots, workers);
-    pairs.resize(placeRows(parts.size(), slots));
+    resizeTightly(pairs, placeRows(parts.size(), slots));
 
     const auto scatter = [&](std::size_t part, int) {
         auto& cursor = cursor_[part];

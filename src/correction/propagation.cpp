@@ -5,14 +5,7 @@
 namespace cairn {
 
 void Propagation::reserve(std::size_t slots) {
-    if (notes_.size() >= slots) return;
-    notes_.resize(slots);
-    // A body is moved once and is once at most among the pushes of one length. It can be several times among the
-    // shorter ones, but not all bodies are there at a time.
-    const std::size_t room = notes_.capacity();
-    moved_.reserve(room);
-    stack_.reserve(room);
-    shorter_.reserve(room);
+    if (notes_.size() < slots) notes_.resize(slots);
 }
 
 PropagationOutcome Propagation::run(const Candidate& candidate, PushGraph& graph, std::size_t limit) {

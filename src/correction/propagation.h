@@ -29,7 +29,7 @@ enum class PropagationOutcome : std::uint8_t {
 /// search. @source thesis Algorithms 1 and 3
 class Propagation {
   public:
-    /// Makes room for bodies with slots below `slots`.
+    /// Is for bodies with slots below `slots` from now on.
     void reserve(std::size_t slots);
 
     /// Searches what the candidate's displacement moves. @param limit largest number of bodies worth knowing about

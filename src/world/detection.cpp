@@ -11,8 +11,8 @@ namespace cairn {
 
 namespace {
 
-/// Fewest pairs worth a thread of their own.
-constexpr std::size_t pair_grain = 32;
+/// Fewest pairs worth a thread of their own: most are far from each other, or known.
+constexpr std::size_t pair_grain = 256;
 
 /// Compares every body with its place at the last detection, and notes where it is now.
 void findStill(const BodyStorage& bodies, double margin, const Executor& executor, StillBodies& still) {

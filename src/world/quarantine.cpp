@@ -9,7 +9,8 @@ namespace cairn {
 
 namespace {
 
-/// False for what is not a number, too: comparisons with it are false. Without branches, since it is true nearly always.
+/// False for what is not a number, too: comparisons with it are false. Without branches, since it is true nearly
+/// always.
 bool isWithin(const Vec3& u, double limit) {
     return static_cast<int>(std::abs(u.x()) <= limit) & static_cast<int>(std::abs(u.y()) <= limit) &
            static_cast<int>(std::abs(u.z()) <= limit);

@@ -18,7 +18,7 @@ namespace cairn {
 namespace {
 
 /// Fewest small batches worth a thread of their own.
-constexpr std::size_t small_batch_grain = 16;
+constexpr std::size_t small_batch_grain = 64;
 
 /// Runs a stage and notes its wall time.
 template <class Work>

@@ -11,7 +11,7 @@
 namespace cairn::test {
 namespace {
 
-TEST(PropagatedCorrection, AllocatesNothingOnceItHasSeenTheWorld) {
+TEST(PropagatedCorrection, AllocatesNothingOnceItHasSearchedAsFar) {
     // A pyramid of touching bodies in which every layer pushes the next through gaps of different size.
     ContactScene scene;
     scene.settings.penetration_threshold = 1e-3;
@@ -42,6 +42,8 @@ TEST(PropagatedCorrection, AllocatesNothingOnceItHasSeenTheWorld) {
         return allocations - before;
     };
     EXPECT_GT(step(), 0u);
+    // There are two searches that change places.
+    step();
     EXPECT_EQ(step(), 0u);
     EXPECT_EQ(step(), 0u);
 }

@@ -170,21 +170,44 @@ TEST(AcceleratedSweeps, GiveTheSameBitsOnAnyNumberOfThreads) {
 }
 
 /// @return visits of a tower whose lowest box slides on the ground
-std::int64_t visitsOfSlidingTower(double sliding_part) {
+std::int64_t visitsOfSlidingTower(double sliding_part, double small_sweep_part) {
     Pile pile = towerOf(8, [](int) { return 1.0; });
     for (BodyIndex box = 1; box < pile.v.size(); ++box) pile.v[box] += Vec3(1, 0, 0);
     ResolutionSettings settings = sweeping();
     settings.direct_limit = 0;
-    settings.moving_sweep_limit = 2;
+    settings.moving_sweep_limit = 4;
+    settings.small_sweep_part = small_sweep_part;
     settings.sliding_part = sliding_part;
     return pile.resolve(settings).global_iterations;
 }
 
 TEST(AcceleratedSweeps, SweepWhatSlidesAsWhatMoves) {
     // Four of 32 contacts slide.
-    EXPECT_EQ(visitsOfSlidingTower(0.1), 2 * 2 * 32);
-    EXPECT_EQ(visitsOfSlidingTower(0.13), 2 * 20 * 32);
-    EXPECT_EQ(visitsOfSlidingTower(1), 2 * 20 * 32);
+    EXPECT_EQ(visitsOfSlidingTower(0.1, 1), 2 * 4 * 32);
+    EXPECT_EQ(visitsOfSlidingTower(0.13, 1), 2 * 20 * 32);
+    EXPECT_EQ(visitsOfSlidingTower(1, 1), 2 * 20 * 32);
+}
+
+TEST(AcceleratedSweeps, SweepASmallBatchThatMovesLess) {
+    EXPECT_EQ(visitsOfSlidingTower(0.1, 0.5), 2 * 2 * 32);
+    EXPECT_EQ(visitsOfSlidingTower(0.1, 0.4), 2 * 2 * 32) << "rounded up";
+    EXPECT_EQ(visitsOfSlidingTower(0.1, 0), 2 * 1 * 32) << "once at least";
+}
+
+/// @return visits of a tower of 20 whose 19 pairs of boxes make 0.95 per box
+std::int64_t visitsOfRestingTower(std::int64_t direct_limit, double direct_pairs) {
+    Pile pile = towerOf(20, [](int) { return 1.0; });
+    ResolutionSettings settings = sweeping();
+    settings.direct_limit = direct_limit;
+    settings.direct_pairs = direct_pairs;
+    return pile.resolve(settings).global_iterations;
+}
+
+TEST(AcceleratedSweeps, TakeDirectStepsWhereFewPairsTouch) {
+    const std::int64_t without = visitsOfRestingTower(0, 0);
+    EXPECT_LT(2 * visitsOfRestingTower(100, 0), without) << "of any batch";
+    EXPECT_EQ(visitsOfRestingTower(100, 0.95), visitsOfRestingTower(100, 0));
+    EXPECT_EQ(visitsOfRestingTower(100, 0.94), without);
 }
 
 TEST(AcceleratedSweeps, LeaveABatchAsleepAloneButKeepItsImpulses) {
