@@ -56,6 +56,10 @@ void joinBodies(std::span<const BodyKind> kind, std::span<const Contact> contact
     const auto mark = [&](BodyIndex body) { scratch.batch_of_body[body] = in_some_batch; };
     for (std::size_t c = 0; c < contacts.size(); ++c) {
         const auto [a, b] = std::pair(contacts[c].a, contacts[c].b);
+        if (c > 0 && a == contacts[c - 1].a && b == contacts[c - 1].b) {
+            scratch.owners[c] = scratch.owners[c - 1];
+            continue;
+        }
         const bool a_joins = isDynamic(kind, a);
         const bool b_joins = isDynamic(kind, b);
         if (!a_joins && !b_joins) throwImmovable(a, b);

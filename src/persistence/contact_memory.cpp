@@ -26,11 +26,26 @@ bool before(BodyIndex a, BodyIndex b, BodyIndex c, BodyIndex d) {
 
 }  // namespace
 
-std::span<const ContactMemory::Entry> ContactMemory::entriesOf(BodyIndex a, BodyIndex b, std::size_t& cursor) const {
-    while (cursor < entries_.size() && before(entries_[cursor].a, entries_[cursor].b, a, b)) ++cursor;
+/// @param cursor at or before the entries of the contact's pair; set to the first of them
+std::span<const ContactMemory::Entry> ContactMemory::entriesOf(const Contact& contact, std::size_t& cursor) const {
+    const auto isBefore = [&](const Entry& e) { return before(e.a, e.b, contact.a, contact.b); };
+    // Pairs whose contacts are known are passed over in ever longer steps.
+    std::size_t step = 1;
+    while (cursor + step < entries_.size() && isBefore(entries_[cursor + step])) {
+        cursor += step;
+        step *= 2;
+    }
+    const auto ahead = std::span(entries_).subspan(cursor, std::min(step + 1, entries_.size() - cursor));
+    cursor += static_cast<std::size_t>(std::ranges::partition_point(ahead, isBefore) - ahead.begin());
     std::size_t end = cursor;
-    while (end < entries_.size() && entries_[end].a == a && entries_[end].b == b) ++end;
+    while (end < entries_.size() && entries_[end].a == contact.a && entries_[end].b == contact.b) ++end;
     return std::span(entries_).subspan(cursor, end - cursor);
+}
+
+/// Whether the entries of a contact's pair begin at a place.
+bool ContactMemory::beginsAt(std::size_t place, const Contact& contact) const {
+    const auto isOfPair = [&](const Entry& e) { return e.a == contact.a && e.b == contact.b; };
+    return place < entries_.size() && isOfPair(entries_[place]) && (place == 0 || !isOfPair(entries_[place - 1]));
 }
 
 void ContactMemory::recallPair(const BodyStorage& bodies, std::span<Contact> contacts,
@@ -72,7 +87,7 @@ void ContactMemory::recallPair(const BodyStorage& bodies, std::span<Contact> con
     }
 }
 
-void ContactMemory::recall(const BodyStorage& bodies, std::span<const std::uint8_t> still, std::span<Contact> contacts,
+void ContactMemory::recall(const BodyStorage& bodies, std::span<const std::uint8_t> known, std::span<Contact> contacts,
                            const Executor& executor) {
     same_.assign(contacts.size(), 0);
     executor.forBlocks(contacts.size(), [&](std::size_t begin, std::size_t end, int) {
@@ -85,17 +100,11 @@ void ContactMemory::recall(const BodyStorage& bodies, std::span<const std::uint8
         while (begin < end) {
             std::size_t last = begin + 1;
             while (last < contacts.size() && isSamePair(contacts[begin], contacts[last])) ++last;
-            const auto candidates = entriesOf(contacts[begin].a, contacts[begin].b, cursor);
-            const bool same = (still[contacts[begin].a] & still[contacts[begin].b]) != 0;
-            if (same && candidates.size() == last - begin) {
-                const bool in_place = candidates.data() - entries_.data() == static_cast<std::ptrdiff_t>(begin);
-                for (std::size_t i = begin; i < last; ++i) {
-                    same_[i] = in_place ? 1 : 0;
-                    contacts[i].last_impulse = candidates[i - begin].impulse;
-                    contacts[i].reference_impulse = candidates[i - begin].reference_impulse;
-                }
+            if (!known.empty() && (known[contacts[begin].a] & known[contacts[begin].b]) != 0) {
+                if (beginsAt(begin, contacts[begin])) std::fill(same_.begin() + begin, same_.begin() + last, 1);
             } else {
-                recallPair(bodies, contacts.subspan(begin, last - begin), candidates);
+                const auto remembered = entriesOf(contacts[begin], cursor);
+                recallPair(bodies, contacts.subspan(begin, last - begin), remembered);
             }
             begin = last;
         }

@@ -17,10 +17,9 @@ namespace cairn {
 class ContactMemory {
   public:
     /// Gives every contact the impulse that the nearest remembered contact of its pair ended with, or zero.
-    /// @param still [slots] 1 = the body did not move since the last step; two such bodies have the contacts that they
-    /// had
+    /// @param known [slots] 1 = contacts of two such bodies have their impulses of the last step already; or empty
     /// @param contacts sorted by (a, b)
-    void recall(const BodyStorage& bodies, std::span<const std::uint8_t> still, std::span<Contact> contacts,
+    void recall(const BodyStorage& bodies, std::span<const std::uint8_t> known, std::span<Contact> contacts,
                 const Executor& executor);
     /// Replaces the memory. @param contacts those of the last recall(), with the impulses they ended with
     /// @param unmoved [slots] 1 = the body has been where it is since the last store()
@@ -44,7 +43,8 @@ class ContactMemory {
 
   private:
     static void recallPair(const BodyStorage& bodies, std::span<Contact> contacts, std::span<const Entry> candidates);
-    std::span<const Entry> entriesOf(BodyIndex a, BodyIndex b, std::size_t& cursor) const;
+    std::span<const Entry> entriesOf(const Contact& contact, std::size_t& cursor) const;
+    bool beginsAt(std::size_t place, const Contact& contact) const;
 
     std::vector<Entry> entries_;      ///< sorted by (a, b)
     std::vector<std::uint8_t> same_;  ///< [contacts] 1 = the entry in its place is of the same contact, which is still

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ranges>
 
 #include "math/arrays.h"
 #include "narrow_phase/narrow_phase.h"
@@ -11,12 +12,15 @@ namespace cairn {
 
 namespace {
 
+/// Which detection of a step it is.
+enum class DetectionRound : std::uint8_t { first, later };
+
 /// Fewest pairs worth a thread of their own: most are far from each other, or known.
 constexpr std::size_t pair_grain = 256;
 
 /// Compares every body with its place at the last detection, and notes where it is now.
 void findStill(const BodyStorage& bodies, double margin, const Executor& executor, StillBodies& still) {
-    if (margin != still.margin) still.places.clear();
+    if (margin != still.margin) forgetPlaces(still);
     still.margin = margin;
     still.places.resize(bodies.slots());
     still.still.resize(bodies.slots());
@@ -150,22 +154,80 @@ bool isExcluded(std::span<const BodyPair> excluded, const BodyPair& pair) {
     return !excluded.empty() && std::binary_search(excluded.begin(), excluded.end(), pair, before);
 }
 
+/// Calls use(piece, place of its first contact), in the order of the contacts.
+template <class Use>
+void forEachPiece(const StepData& data, const Use& use) {
+    std::size_t next = 0;
+    for (const FoundContacts& part : data.thread_contacts) {
+        for (const FoundContacts::Piece& piece : part.pieces) {
+            use(piece, next);
+            next += piece.count;
+        }
+    }
+}
+
+/// Brings the contacts that stay to their places: first all that move down, then, from the last on, those that move up.
+/// So none is written over before its turn.
+void moveStaying(StepData& data, std::size_t total) {
+    std::vector<Contact>& contacts = data.contacts;
+    resizeTightly(contacts, std::max(total, contacts.size()));
+    data.rising.clear();
+    forEachPiece(data, [&](const FoundContacts::Piece& piece, std::size_t to) {
+        if (!piece.stays || to == piece.from) return;
+        if (to > piece.from) {
+            data.rising.emplace_back(piece, to);
+        } else {
+            const auto first = contacts.begin() + piece.from;
+            std::move(first, first + piece.count, contacts.begin() + static_cast<std::ptrdiff_t>(to));
+        }
+    });
+    for (const auto& [piece, to] : std::views::reverse(data.rising)) {
+        const auto first = contacts.begin() + piece.from;
+        std::move_backward(first, first + piece.count,
+                           contacts.begin() + static_cast<std::ptrdiff_t>(to) + piece.count);
+    }
+    contacts.resize(total);
+}
+
+/// Makes what the response of the last step left the beginning of the present one.
+void beginStep(bool has_history, std::span<Contact> contacts) {
+    for (Contact& contact : contacts) {
+        contact.last_impulse = has_history ? contact.impulse : Vec3(Vec3::Zero());
+        if (!has_history) contact.reference_impulse.setZero();
+        contact.impulse.setZero();
+        contact.angular_impulse.setZero();
+        contact.gap = contact.forced = contact.fall = contact.climb = 0;
+    }
+}
+
 /// Threads own ascending blocks of the sorted pairs, so joining them in order keeps the contacts sorted.
-void joinContacts(const BodyStorage& bodies, const MaterialTable& materials, const Executor& executor, StepData& data) {
+void joinContacts(const BodyStorage& bodies, const MaterialTable& materials, const Executor& executor,
+                  DetectionRound round, StepData& data) {
     std::size_t total = 0;
-    for (const auto& found : data.thread_contacts) total += found.size();
+    for (const FoundContacts& part : data.thread_contacts) total += part.count;
     requireContacts(total);
-    resizeTightly(data.contacts, total);
+    moveStaying(data, total);
+    const auto fill = [&](const FoundContacts& part, std::size_t place) {
+        for (const FoundContacts::Piece& piece : part.pieces) {
+            const std::span<Contact> contacts = std::span(data.contacts).subspan(place, piece.count);
+            place += piece.count;
+            if (piece.stays) {
+                if (round == DetectionRound::first) beginStep(data.has_history, contacts);
+                continue;
+            }
+            for (std::size_t i = 0; i < contacts.size(); ++i) {
+                const FoundContact& found = part.found[piece.from + i];
+                contacts[i] = contactOf(found, materials.pair(bodies.material[found.a], bodies.material[found.b]));
+            }
+        }
+    };
     executor.forBlocks(
         data.thread_contacts.size(),
         [&](std::size_t begin, std::size_t end, int) {
-            std::size_t next = 0;
-            for (std::size_t t = 0; t < begin; ++t) next += data.thread_contacts[t].size();
-            for (std::size_t t = begin; t < end; ++t) {
-                for (const FoundContact& found : data.thread_contacts[t]) {
-                    data.contacts[next++] =
-                        contactOf(found, materials.pair(bodies.material[found.a], bodies.material[found.b]));
-                }
+            std::size_t place = 0;
+            for (std::size_t t = 0; t < begin; ++t) place += data.thread_contacts[t].count;
+            for (std::size_t t = begin; t < end; place += data.thread_contacts[t++].count) {
+                fill(data.thread_contacts[t], place);
             }
         },
         1);
@@ -173,39 +235,59 @@ void joinContacts(const BodyStorage& bodies, const MaterialTable& materials, con
 
 /// Finds the contacts of all pairs but those that are found already.
 void detect(const BodyStorage& bodies, const MaterialTable& materials, BroadPhase& broad_phase,
-            const Executor& executor, StepData& data) {
+            const Executor& executor, DetectionRound round, StepData& data) {
     const double margin = data.still.margin;
     findBounds(bodies, margin, executor, data);
     data.near_pairs.update({bodies.kind, data.bounds, bodies.v, data.still.still}, broad_phase, executor);
     const std::span<const BodyPair> pairs = data.near_pairs.pairs();
     data.thread_contacts.resize(static_cast<std::size_t>(executor.threads()));
-    for (auto& contacts : data.thread_contacts) contacts.clear();
+    for (FoundContacts& part : data.thread_contacts) part.clear();
     executor.forBlocks(
         pairs.size(),
         [&](std::size_t begin, std::size_t end, int thread) {
             if (begin == end) return;
             Manifold manifold;
             LastContacts last_contacts(data.contacts, pairs[begin]);
-            auto& contacts = data.thread_contacts[static_cast<std::size_t>(thread)];
+            FoundContacts& part = data.thread_contacts[static_cast<std::size_t>(thread)];
             for (std::size_t i = begin; i < end; ++i) {
                 const BodyPair& pair = pairs[i];
                 if (isExcluded(data.excluded, pair)) continue;
                 const bool found = areFound(data.still, pair);
                 const auto last = found ? last_contacts.of(pair) : std::span<const Contact>();
-                for (const Contact& c : last) {
-                    appendTightly(contacts, {c.a, c.b, c.point, c.normal, c.distance});
+                if (!last.empty()) {
+                    part.add(static_cast<std::size_t>(last.data() - data.contacts.data()), last.size(), true);
+                    continue;
                 }
-                const bool known = !last.empty() || (found && data.still.all_tested);
-                if (known || !data.bounds[pair.a].overlaps(data.bounds[pair.b])) continue;
-                collidePair(bodies, pair, margin, manifold, contacts);
+                if (found && data.still.all_tested) continue;
+                if (!data.bounds[pair.a].overlaps(data.bounds[pair.b])) continue;
+                const std::size_t before = part.found.size();
+                collidePair(bodies, pair, margin, manifold, part.found);
+                part.add(before, part.found.size() - before, false);
             }
         },
         pair_grain);
-    joinContacts(bodies, materials, executor, data);
+    joinContacts(bodies, materials, executor, round, data);
     data.still.all_tested = data.excluded.empty();
 }
 
 }  // namespace
+
+void FoundContacts::clear() {
+    found.clear();
+    pieces.clear();
+    count = 0;
+}
+
+void FoundContacts::add(std::size_t from, std::size_t contacts, bool stays) {
+    if (contacts == 0) return;
+    count += contacts;
+    const auto size = static_cast<std::uint32_t>(contacts);
+    if (!pieces.empty() && pieces.back().stays == stays && pieces.back().from + pieces.back().count == from) {
+        pieces.back().count += size;
+    } else {
+        pieces.push_back({static_cast<std::uint32_t>(from), size, stays});
+    }
+}
 
 void requireContacts(std::size_t count) {
     if (count <= most_contacts) return;
@@ -217,14 +299,18 @@ void requireContacts(std::size_t count) {
 void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, BroadPhase& broad_phase, double margin,
                     const Executor& executor, StepData& data) {
     findStill(bodies, margin, executor, data.still);
-    detect(bodies, materials, broad_phase, executor, data);
+    detect(bodies, materials, broad_phase, executor, DetectionRound::first, data);
 }
 
 bool detectDisplaced(const BodyStorage& bodies, const MaterialTable& materials, BroadPhase& broad_phase, double way,
                      const Executor& executor, StepData& data) {
     if (!findDisplaced(bodies, way, data.still)) return false;
-    detect(bodies, materials, broad_phase, executor, data);
+    detect(bodies, materials, broad_phase, executor, DetectionRound::later, data);
     return true;
+}
+
+void forgetPlaces(StillBodies& still) {
+    still.places.clear();
 }
 
 void forgetDisplaced(const BodyStorage& bodies, StillBodies& still) {

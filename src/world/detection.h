@@ -25,4 +25,7 @@ bool detectDisplaced(const BodyStorage& bodies, const MaterialTable& materials, 
 /// wherever the bodies are then.
 void forgetDisplaced(const BodyStorage& bodies, StillBodies& still);
 
+/// To be called when contacts would be others though their bodies did not move: all are found anew.
+void forgetPlaces(StillBodies& still);
+
 }  // namespace cairn

@@ -2,6 +2,8 @@
 
 #include <tuple>
 
+#include "world/detection.h"
+
 namespace cairn {
 
 namespace {
@@ -71,7 +73,7 @@ void loadMoment(const MomentState& moment, WorldState& world) {
     world.events.events = moment.events;
     // What the last step left for viewers is that of another step.
     world.data.bounds.clear();
-    world.data.still.places.clear();
+    forgetPlaces(world.data.still);
     world.data.near_pairs.forget();
     world.trace.correction.clear();
     world.trace.shock_stage.clear();

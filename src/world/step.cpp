@@ -171,7 +171,11 @@ void resolveStage(WorldState& world) {
     bodies.fall = (damping.damping_threshold > 0 ? 1 - damping.damping : 1.0) * world.settings.timeStep() *
                   (world.gravity + world.global_acceleration);
     const bool remembers = world.settings.resolution.resolution == ResolutionKind::accelerated_sweeps;
-    if (remembers) world.memory.recall(world.bodies, data.still.still, data.contacts, world.executor);
+    if (remembers) {
+        const auto known =
+            data.has_history ? std::span<const std::uint8_t>(data.still.still) : std::span<const std::uint8_t>();
+        world.memory.recall(world.bodies, known, data.contacts, world.executor);
+    }
     buildJointBlocks(world);
     data.resolution_counts.assign(world.resolutions.size(), {});
     const auto resolve = [&](std::uint32_t batch, int thread, const Executor& executor) {
@@ -187,6 +191,7 @@ void resolveStage(WorldState& world) {
     const Executor alone;
     forBatches(data, shared, world.executor, [&](std::uint32_t batch, int thread) { resolve(batch, thread, alone); });
     if (remembers) world.memory.store(world.bodies, data.still.unmoved, data.contacts, world.executor);
+    data.has_history = remembers;
     finishJoints(world);
     quarantine(world);
     measureIfAsked(world, Measured::resolution);

@@ -75,12 +75,31 @@ struct FoundContact {
     double distance;  ///< [m]
 };
 
+/// What one thread found, in the order of the pairs.
+struct FoundContacts {
+    /// Contacts side by side: those that StepData::contacts has of the last detection, or of found.
+    struct Piece {
+        std::uint32_t from;  ///< index of the first, there
+        std::uint32_t count;
+        bool stays;  ///< they are those of the last detection
+    };
+    std::vector<FoundContact> found;
+    std::vector<Piece> pieces;
+    std::size_t count = 0;  ///< of all pieces
+
+    void clear();
+    /// Appends contacts. @param from, contacts, stays as of Piece
+    void add(std::size_t from, std::size_t contacts, bool stays);
+};
+
 /// The arrays that one stage leaves to the next; nothing else travels between stages. Named with their producer.
 struct StepData {
-    std::vector<Bounds> bounds;                              ///< detection: [slots] grown by the contact margin [m, W]
-    NearPairs near_pairs;                                    ///< detection
-    StillBodies still;                                       ///< detection: which bodies are where they were
-    std::vector<std::vector<FoundContact>> thread_contacts;  ///< detection: [threads], joined into contacts
+    std::vector<Bounds> bounds;                  ///< detection: [slots] grown by the contact margin [m, W]
+    NearPairs near_pairs;                        ///< detection
+    StillBodies still;                           ///< detection: which bodies are where they were
+    std::vector<FoundContacts> thread_contacts;  ///< detection: [threads], joined into contacts
+    std::vector<std::pair<FoundContacts::Piece, std::size_t>> rising;  ///< detection: pieces that move up, and where to
+    bool has_history = false;             ///< resolution: the contacts' impulses are what the next step begins with
     std::vector<Contact> contacts;        ///< detection, changed by correction and resolution: sorted by (a, b)
     ContactsOfBodies contacts_of;         ///< batches: [slots] contact indices
     Batches batches;                      ///< batches: groups in canonical order
