@@ -21,6 +21,7 @@
 #include "parallel/executor.h"
 #include "persistence/contact_memory.h"
 #include "resolution/resolution.h"
+#include "world/found_contacts.h"
 
 namespace cairn {
 
@@ -64,32 +65,6 @@ struct StillBodies {
     std::vector<std::uint8_t> unmoved;  ///< [slots] 1 = still, and left there by the correction
     double margin = 0;                  ///< contact margin of the last detection [m]
     bool all_tested = false;            ///< the last detection tested every near pair: joints kept none apart
-};
-
-/// What the detection finds of a contact.
-struct FoundContact {
-    BodyIndex a;
-    BodyIndex b;
-    Vec3 point;       ///< [m, W]
-    Vec3 normal;      ///< from B to A
-    double distance;  ///< [m]
-};
-
-/// What one thread found, in the order of the pairs.
-struct FoundContacts {
-    /// Contacts side by side: those that StepData::contacts has of the last detection, or of found.
-    struct Piece {
-        std::uint32_t from;  ///< index of the first, there
-        std::uint32_t count;
-        bool stays;  ///< they are those of the last detection
-    };
-    std::vector<FoundContact> found;
-    std::vector<Piece> pieces;
-    std::size_t count = 0;  ///< of all pieces
-
-    void clear();
-    /// Appends contacts. @param from, contacts, stays as of Piece
-    void add(std::size_t from, std::size_t contacts, bool stays);
 };
 
 /// The arrays that one stage leaves to the next; nothing else travels between stages. Named with their producer.
