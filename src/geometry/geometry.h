@@ -16,11 +16,16 @@ struct Bounds {
 
     Bounds grown(double by) const { return {lower.array() - by, upper.array() + by}; }
     /// Without branches, since nobody can predict them.
-    bool overlaps(const Bounds& other) const { return isBelow(lower, other.upper) & isBelow(other.lower, upper); }
-    bool contains(const Bounds& other) const { return isBelow(lower, other.lower) & isBelow(other.upper, upper); }
+    bool overlaps(const Bounds& other) const {
+        return (isBelow(lower, other.upper) & isBelow(other.lower, upper)) != 0;
+    }
+    bool contains(const Bounds& other) const {
+        return (isBelow(lower, other.lower) & isBelow(other.upper, upper)) != 0;
+    }
 
   private:
-    static bool isBelow(const Vec3& x, const Vec3& y) {
+    /// @return 0 or 1
+    static int isBelow(const Vec3& x, const Vec3& y) {
         return static_cast<int>(x.x() <= y.x()) & static_cast<int>(x.y() <= y.y()) & static_cast<int>(x.z() <= y.z());
     }
 };

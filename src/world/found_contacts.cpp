@@ -1,7 +1,6 @@
 #include "world/found_contacts.h"
 
 #include <algorithm>
-#include <ranges>
 #include <span>
 
 #include "math/arrays.h"
@@ -51,7 +50,8 @@ void moveStaying(StepData& data, std::size_t total) {
             std::move(first, first + piece.count, contacts.begin() + static_cast<std::ptrdiff_t>(to));
         }
     });
-    for (const auto& [piece, to] : std::views::reverse(data.rising)) {
+    for (std::size_t n = data.rising.size(); n-- > 0;) {
+        const auto& [piece, to] = data.rising[n];
         const auto first = contacts.begin() + piece.from;
         std::move_backward(first, first + piece.count,
                            contacts.begin() + static_cast<std::ptrdiff_t>(to) + piece.count);

@@ -12,8 +12,8 @@ namespace {
 /// False for what is not a number, too: comparisons with it are false. Without branches, since it is true nearly
 /// always.
 bool isWithin(const Vec3& u, double limit) {
-    return static_cast<int>(std::abs(u.x()) <= limit) & static_cast<int>(std::abs(u.y()) <= limit) &
-           static_cast<int>(std::abs(u.z()) <= limit);
+    return (static_cast<int>(std::abs(u.x()) <= limit) & static_cast<int>(std::abs(u.y()) <= limit) &
+            static_cast<int>(std::abs(u.z()) <= limit)) != 0;
 }
 
 bool isSound(const BodyStorage& bodies, std::size_t i) {
