@@ -44,6 +44,7 @@ double pack(const Shape& shape, double friction, std::uint64_t seed, const Plan&
     // together: their fraction is 0.04 higher then.
     settings.resolution.sweep_limit = sweeps;
     settings.resolution.moving_sweep_limit = sweeps;
+    settings.resolution.small_sweep_part = 1;
     Grains grains(settings, grainLaw(friction), grainLaw(friction), seed);
     grains.addWall(Vec3::UnitZ(), 0);
     grains.addShaft(width);
