@@ -38,8 +38,10 @@ void merge(std::span<const BodyPair> added, std::vector<BodyPair>& pairs) {
 }  // namespace
 
 void NearPairs::update(const NearPairsInput& input, BroadPhase& broad_phase, const Executor& executor) {
-    if (!findLeft(input, executor)) return;
-    cover(input, executor);
+    const bool searched_before = searched_;
+    searched_ = findLeft(input, executor);
+    if (!searched_) return;
+    cover(input, !searched_before, executor);
     broad_phase.findPairs({.kind = input.kind, .bounds = covered_, .still = stays_}, executor, new_pairs_);
     std::erase_if(pairs_, [&](const BodyPair& pair) { return (stays_[pair.a] & stays_[pair.b]) == 0; });
     merge(new_pairs_, pairs_);
@@ -66,11 +68,13 @@ bool NearPairs::findLeft(const NearPairsInput& input, const Executor& executor) 
     return std::ranges::find(stays_, 0) != stays_.end();
 }
 
-/// Once a search is due, all that moves gets new bounds, so that the next one is not due soon.
-void NearPairs::cover(const NearPairsInput& input, const Executor& executor) {
+/// Gives new bounds to all that moves, so that the next search is not due soon, or only to those that left theirs:
+/// where somebody does in every update, as among very many bodies, more would not help.
+void NearPairs::cover(const NearPairsInput& input, bool all, const Executor& executor) {
     executor.forBlocks(input.kind.size(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
-            if (stays_[i] != 0 && (input.still[i] != 0 || input.kind[i] == BodyKind::hole)) continue;
+            const bool moves = input.still[i] == 0 && input.kind[i] != BodyKind::hole;
+            if (stays_[i] != 0 && !(all && moves)) continue;
             stays_[i] = 0;
             kind_[i] = input.kind[i];
             if (kind_[i] == BodyKind::hole) continue;

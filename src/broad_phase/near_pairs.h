@@ -33,12 +33,13 @@ class NearPairs {
 
   private:
     bool findLeft(const NearPairsInput& input, const Executor& executor);
-    void cover(const NearPairsInput& input, const Executor& executor);
+    void cover(const NearPairsInput& input, bool all, const Executor& executor);
 
     std::vector<BodyPair> pairs_;
     std::vector<Bounds> covered_;      ///< [slots] bounds of the last search [m, W]
     std::vector<BodyKind> kind_;       ///< [slots] at the last search
     std::vector<std::uint8_t> stays_;  ///< [slots] 1 = within covered_
+    int quiet_ = 0;                    ///< updates since the last search
     std::vector<BodyPair> new_pairs_;  ///< those with a body whose covered_ is new
 };
 
