@@ -39,7 +39,7 @@ class NearPairs {
     std::vector<Bounds> covered_;      ///< [slots] bounds of the last search [m, W]
     std::vector<BodyKind> kind_;       ///< [slots] at the last search
     std::vector<std::uint8_t> stays_;  ///< [slots] 1 = within covered_
-    int quiet_ = 0;                    ///< updates since the last search
+    bool searched_ = false;            ///< by the last update
     std::vector<BodyPair> new_pairs_;  ///< those with a body whose covered_ is new
 };
 
