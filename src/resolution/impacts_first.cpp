@@ -65,6 +65,7 @@ class ImpactsFirst final : public Resolution {
         }
         if (!simultaneous_) simultaneous_ = makeAcceleratedSweepsResolution();
         impacts.moving_sweep_limit = std::max(settings.moving_sweep_limit, simultaneous_sweeps);
+        impacts.small_sweep_part = 1;
         return simultaneous_->resolve(batch, contacts, bodies, impacts, executor);
     }
 
