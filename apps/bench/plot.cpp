@@ -52,7 +52,10 @@ double valueOf(const Json& entry, const Panel& panel) {
     return entry.at("values").at(panel.value).get<double>();
 }
 
-/// Scales a panel to whole decades around its values; what is zero stands at the left edge.
+/// A panel is not wider than this: what is smaller than all others by more is as good as zero.
+constexpr double most_decades = 6;
+
+/// Scales a panel to whole decades around its values; what is smaller or zero stands at the left edge.
 void fit(Panel& panel, const Json& entries) {
     double least = 1e300;
     double most = 0;
@@ -63,8 +66,9 @@ void fit(Panel& panel, const Json& entries) {
         most = std::max(most, value);
     }
     if (most == 0) return;
-    panel.lower = std::floor(std::log10(least));
-    panel.decades = std::max(1.0, std::ceil(std::log10(most)) - panel.lower);
+    const double upper = std::ceil(std::log10(most));
+    panel.lower = std::max(std::floor(std::log10(least)), upper - most_decades);
+    panel.decades = std::max(1.0, upper - panel.lower);
 }
 
 std::string textAt(double x, double y, const char* style, const std::string& text) {
