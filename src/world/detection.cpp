@@ -1,7 +1,5 @@
 #include "world/detection.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "math/arrays.h"
@@ -175,13 +173,6 @@ void detect(const BodyStorage& bodies, const MaterialTable& materials, BroadPhas
 }
 
 }  // namespace
-
-void requireContacts(std::size_t count) {
-    if (count <= most_contacts) return;
-    throw InputError(fmt::format(
-        "{} contacts in one time step; {} are the most: remove bodies, or part those that were put into each other",
-        count, most_contacts));
-}
 
 void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, BroadPhase& broad_phase, double margin,
                     const Executor& executor, StepData& data) {

@@ -5,12 +5,6 @@
 
 namespace cairn {
 
-/// Most contacts of a step: they are numbered with 32 bits, and so many fill 460 GB.
-inline constexpr std::size_t most_contacts = 2'000'000'000;
-
-/// @throws InputError if a step has more than most_contacts
-void requireContacts(std::size_t count);
-
 /// Finds all contacts of the bodies where they are now. Pairs that did not move since the last detection keep those
 /// that they had. @param margin [m] @throws InputError beyond most_contacts
 void detectContacts(const BodyStorage& bodies, const MaterialTable& materials, BroadPhase& broad_phase, double margin,

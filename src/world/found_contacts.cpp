@@ -1,10 +1,12 @@
 #include "world/found_contacts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <span>
 
 #include "math/arrays.h"
-#include "world/detection.h"
+#include "world/world_state.h"
 
 namespace cairn {
 
@@ -71,6 +73,13 @@ void beginStep(bool has_history, std::span<Contact> contacts) {
 }
 
 }  // namespace
+
+void requireContacts(std::size_t count) {
+    if (count <= most_contacts) return;
+    throw InputError(fmt::format(
+        "{} contacts in one time step; {} are the most: remove bodies, or part those that were put into each other",
+        count, most_contacts));
+}
 
 void FoundContacts::clear() {
     found.clear();

@@ -13,6 +13,12 @@ namespace cairn {
 
 struct StepData;
 
+/// Most contacts of a step: they are numbered with 32 bits, and so many fill 460 GB.
+inline constexpr std::size_t most_contacts = 2'000'000'000;
+
+/// @throws InputError if a step has more than most_contacts
+void requireContacts(std::size_t count);
+
 /// What the detection finds of a contact.
 struct FoundContact {
     BodyIndex a;

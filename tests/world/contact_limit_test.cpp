@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "world/detection.h"
+#include "world/found_contacts.h"
 
 namespace cairn {
 namespace {
