@@ -1,6 +1,7 @@
 # The daily commands. Everything they need is installed when it is missing (Debian packages of tools/packages.txt).
 #   make run       build the release and run the main scene; where there is a display, show it in the browser
 #   make test      build the release and run all tests
+#   make golden    list the state hashes of the golden runs that changed; make golden UPDATE=1 keeps the new ones
 #   make sanitize  run the tests under the address, undefined-behaviour and thread sanitizers
 #   make coverage  measure which lines of detection and response the tests run
 #   make fuzz SECONDS=60   fuzz the readers, the narrow phase and the world, each target for so long
@@ -22,7 +23,7 @@ SOURCES = $$(find include src apps bench tests examples -name '*.h' -o -name '*.
 # A compiler cache is used where there is one.
 export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
 
-.PHONY: run test sanitize coverage fuzz soak thesis bench validate results format tidy install clean
+.PHONY: run test golden sanitize coverage fuzz soak thesis bench validate results format tidy install clean
 
 run:
 	@tools/install_packages build
@@ -36,6 +37,12 @@ test:
 	@cmake --preset release --log-level=WARNING
 	@cmake --build --preset release
 	@ctest --preset release -j$(JOBS)
+
+golden:
+	@tools/install_packages build test
+	@cmake --preset release --log-level=WARNING
+	@cmake --build --preset release --target golden
+	@build/release/tests/golden/golden tests/golden/hashes.json $(if $(UPDATE),--update)
 
 sanitize:
 	@tools/install_packages build test develop

@@ -3,55 +3,40 @@
 
 #include <cstdlib>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "cairn/scene.h"
+#include "golden/scene_names.h"
+#include "golden/scenes.h"
 
 namespace cairn {
 namespace {
 
-/// A scene and the part of it that the quick test runs; CAIRN_FULL_TESTS=1 runs scenes to their end.
-struct Case {
-    std::string scene;
-    double seconds;
-};
-
-class Threads : public testing::TestWithParam<Case> {};
+/// The golden scenes with all their settings; CAIRN_FULL_TESTS=1 runs them to their ends with the preset performance.
+class Threads : public testing::TestWithParam<golden::SceneAndKind> {};
 
 TEST_P(Threads, StatesAreEqualAtEveryStep) {
-    const Scene scene = builtInScene(GetParam().scene);
-    std::vector<std::unique_ptr<SceneRun>> runs;
+    const auto [name, kind] = GetParam();
+    const golden::GoldenScene& scene = golden::goldenScene(name);
+    std::vector<std::unique_ptr<golden::GoldenRun>> runs;
     for (const std::int64_t threads : {1, 2, 3, 4, 8}) {
-        Settings settings = settingsFor(scene);
-        settings.parallel.threads = threads;
-        runs.push_back(std::make_unique<SceneRun>(scene, settings));
+        runs.push_back(std::make_unique<golden::GoldenRun>(scene, kind, threads));
     }
-    const bool full = std::getenv("CAIRN_FULL_TESTS") != nullptr;
-    const double seconds = full ? scene.duration : GetParam().seconds;
-    while (runs.front()->world().time() < seconds) {
+    const World& first = runs.front()->world();
+    const bool full = std::getenv("CAIRN_FULL_TESTS") != nullptr && kind == golden::Kind::performance;
+    const std::int64_t last_step = scene.hashSteps(kind).back();
+    const double seconds = full ? runs.front()->duration() : 0;
+    while (first.stepCount() < last_step || first.time() < seconds) {
         for (const auto& run : runs) run->step();
-        const World& first = runs.front()->world();
         for (const auto& run : runs) {
             ASSERT_EQ(run->world().stateHash(), first.stateHash())
                 << run->world().settings().parallel.threads << " threads, time step " << first.stepCount();
         }
     }
-    EXPECT_TRUE(runs.front()->world().faults().empty());
+    EXPECT_TRUE(first.faults().empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Threads,
-                         testing::Values(Case{"stacks5", 1.5}, Case{"stacks8", 1.2}, Case{"well324", 1.0},
-                                         Case{"well392", 1.0}, Case{"cage384", 2.0}, Case{"cage2816", 0.6},
-                                         Case{"catapult7", 2.0}, Case{"catapult15", 2.0}, Case{"cradle", 2.0},
-                                         Case{"tower:10", 1.0}, Case{"wall:10", 0.5}, Case{"heap:100", 1.5}),
-                         [](const auto& test) {
-                             std::string name = test.param.scene;
-                             for (char& c : name) {
-                                 if (c == ':') c = '_';
-                             }
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Scenes, Threads, golden::everySceneWithEveryKind(), golden::nameOfSceneAndKind);
 
 TEST(BodyOrder, BroadPhasesGiveTheSameRun) {
     const Scene scene = builtInScene("cage384");

@@ -1,0 +1,157 @@
+#include "golden/scenes.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "golden/making.h"
+
+namespace cairn::golden {
+namespace {
+
+Scene stacks(std::string_view name) {
+    Scene scene = builtInScene(name);
+    scene.bodies.back().position.x() = -0.4;  // the ball is about to hit the first wall
+    return scene;
+}
+
+Scene well(std::string_view name) {
+    Scene scene = builtInScene(name);
+    for (SceneBody& body : scene.bodies) {
+        if (!body.fixed) body.position.z() -= 0.35;
+    }
+    return scene;
+}
+
+Scene cage(std::string_view name) {
+    Scene scene = builtInScene(name);
+    scene.events.front().time = 0.1;  // of gravity
+    return scene;
+}
+
+Scene catapult(std::string_view name) {
+    Scene scene = builtInScene(name);
+    SceneBody& weight = scene.bodies.back();  // has fallen almost down
+    weight.position.z() = 1.1;
+    weight.linear_velocity = {0, 0, -8};
+    return scene;
+}
+
+constexpr std::array<Action, 1> push_tower = {{{0.1, [](SceneRun& run) {
+                                                    run.world().applyImpulse(run.ids()[12], {2, 0.5, 0});
+                                                }}}};
+constexpr std::array<Action, 1> push_wall = {{{0.1, [](SceneRun& run) {
+                                                   run.world().applyImpulse(run.ids()[14], {2, 0.5, 0});
+                                               }}}};
+
+constexpr auto table = std::to_array<GoldenScene>({
+    {"stacks5", [] { return stacks("stacks5"); }, {24, 60, 120}, {48, 128, 192}},
+    {"stacks8", [] { return stacks("stacks8"); }, {24, 60, 120}, {48, 128, 192}},
+    {"well324", [] { return well("well324"); }, {30, 60, 120}, {120, 240, 360}},
+    {"well392", [] { return well("well392"); }, {30, 60, 120}, {120, 240, 360}},
+    {"cage384", [] { return cage("cage384"); }, {40, 90, 200}, {200, 400, 720}},
+    {"cage2816", [] { return cage("cage2816"); }, {24, 60, 100}, {80, 160, 240}},
+    {"catapult7", [] { return catapult("catapult7"); }, {24, 60, 120}, {60, 120, 300}},
+    {"catapult15", [] { return catapult("catapult15"); }, {24, 60, 120}, {60, 120, 300}},
+    {"cradle", [] { return builtInScene("cradle"); }, {12, 40, 120}, {48, 160, 480}},
+    {"tower", [] { return builtInScene("tower:20"); }, {20, 100, 240}, {40, 120, 240}, push_tower},
+    {"wall", [] { return builtInScene("wall:8"); }, {20, 60, 120}, {40, 110, 140}, push_wall},
+    {"mixed_heap", mixedHeap, {30, 80, 180}, {120, 280, 480}},
+    {"mechanism", mechanism, {30, 80, 240}, {120, 240, 480}},
+    {"rolling_friction", rollingFriction, {30, 120, 240}, {60, 120, 240}},
+    {"zero_gravity", zeroGravity, {20, 40, 80}, {80, 120, 240}},
+    {"waking_by_ball", settlingStacks, {90, 120, 200}, {360, 440, 720}, throw_ball},
+    {"changing_bodies", changingPile, {20, 60, 120}, {40, 120, 260}, change_bodies},
+    {"contacts319", [] { return crowdedSlab("319 contacts", 35, 0); }, {2, 4, 8}, {2, 6, 12}, {}, 319},
+    {"contacts320", [] { return crowdedSlab("320 contacts", 35, 1); }, {2, 4, 8}, {2, 6, 12}, {}, 320},
+    {"contacts1023", [] { return crowdedSlab("1023 contacts", 3, 992); }, {2, 8, 24}, {8, 24, 48}, {}, 1023},
+    {"contacts1024", [] { return crowdedSlab("1024 contacts", 3, 993); }, {2, 8, 24}, {8, 24, 48}, {}, 1024},
+    {"sliding3", [] { return rollingBalls("3 % sliding", 3); }, {4, 12, 24}, {16, 48, 96}, {}, 100},
+    {"sliding4", [] { return rollingBalls("4 % sliding", 4); }, {4, 12, 24}, {16, 48, 96}, {}, 100},
+    {"held30of40", [] { return partlyAsleep("30 of 40 asleep", 30); }, {4, 12, 24}, {16, 48, 96}},
+    {"held31of40", [] { return partlyAsleep("31 of 40 asleep", 31); }, {4, 12, 24}, {16, 48, 96}},
+    {"pile", pyramid, {6, 30, 90}, {24, 90, 180}},
+    {"pile_with_joint", jointedPyramid, {6, 30, 90}, {24, 90, 180}},
+});
+
+/// "High performance solver settings". @source thesis §5.1
+Settings thesisSettings() {
+    Settings settings = Settings::preset(Preset::performance);
+    settings.correction.penetration_threshold = 1.74e-3;
+    settings.correction.spread_levels = 0;
+    settings.correction.correction_rounds = 1;
+    settings.resolution.resolution = ResolutionKind::impulse_queue;
+    settings.resolution.order = ResolutionOrder::highest_closing_speed;
+    settings.resolution.resolution_threshold = 83.4e-6;
+    settings.resolution.restitution_threshold = 4.58e-2;
+    settings.resolution.global_iterations = 2;
+    settings.resolution.shock_propagation = true;
+    settings.resolution.shock_iterations = 6;
+    settings.sleep.sleeping = true;
+    settings.sleep.sleep_threshold = 8.33e-3;
+    settings.gravity_damping.damping = 0.7;
+    settings.gravity_damping.damping_threshold = 8.33e-2;
+    return settings;
+}
+
+Settings settingsOf(const Scene& scene, Kind kind, std::int64_t threads) {
+    Settings settings;
+    if (kind == Kind::thesis) {
+        settings = thesisSettings();
+        for (const auto& [name, value] : scene.settings) setField(settings, name, value);
+    } else {
+        SettingOverrides overrides;
+        overrides.preset = kind == Kind::accuracy ? Preset::accuracy : Preset::performance;
+        settings = settingsFor(scene, overrides);
+    }
+    settings.parallel.threads = threads;
+    return settings;
+}
+
+SceneRun start(const GoldenScene& golden, Kind kind, std::int64_t threads) {
+    const Scene scene = golden.make();
+    return SceneRun(scene, settingsOf(scene, kind, threads));
+}
+
+}  // namespace
+
+std::string_view nameOf(Kind kind) {
+    switch (kind) {
+        case Kind::performance:
+            return "performance";
+        case Kind::accuracy:
+            return "accuracy";
+        case Kind::thesis:
+            return "thesis";
+    }
+    throw std::logic_error("a kind of settings without a name");
+}
+
+std::span<const GoldenScene> goldenScenes() {
+    return table;
+}
+
+const GoldenScene& goldenScene(std::string_view name) {
+    const auto found = std::ranges::find(table, name, &GoldenScene::name);
+    if (found == table.end()) throw std::out_of_range("no golden scene is called " + std::string(name));
+    return *found;
+}
+
+GoldenRun::GoldenRun(const GoldenScene& golden, Kind kind, std::int64_t threads)
+    : left_(golden.actions), run_(start(golden, kind, threads)) {}
+
+void GoldenRun::step() {
+    // A time that is a whole number of steps belongs to that step, however it is rounded.
+    const double now = run_.world().time() + 1e-9;
+    while (!left_.empty() && left_.front().time <= now) {
+        left_.front().act(run_);
+        left_ = left_.subspan(1);
+    }
+    run_.step();
+}
+
+void GoldenRun::stepUntil(std::int64_t count) {
+    while (world().stepCount() < count) step();
+}
+
+}  // namespace cairn::golden

@@ -1,0 +1,66 @@
+/// @file The scenes whose results are kept: short, deterministic, and between them everything that the engine does,
+/// with a scene on each side of every border where it changes its way of working.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "cairn/scene.h"
+
+namespace cairn::golden {
+
+/// The settings that every scene runs with.
+enum class Kind { performance, accuracy, thesis };
+
+inline constexpr std::array kinds = {Kind::performance, Kind::accuracy, Kind::thesis};
+
+/// As in the column "preset" of the kept rows.
+std::string_view nameOf(Kind kind);
+
+/// What happens to a run besides the events that a scene can hold, such as a body that is added.
+struct Action {
+    double time;  ///< at the first step that begins then or later [s]
+    void (*act)(SceneRun& run);
+};
+
+/// The steps after which the state is hashed, ascending.
+using HashSteps = std::array<std::int64_t, 3>;
+
+/// One scene.
+struct GoldenScene {
+    std::string_view name;
+    Scene (*make)();
+    HashSteps steps;                    ///< at 240 steps per second: performance and thesis
+    HashSteps accuracy_steps;           ///< at 960 steps per second
+    std::span<const Action> actions{};  ///< by time
+    std::int64_t contacts = 0;  ///< of the largest batch at every one of the steps above; 0 = whatever there are
+
+    const HashSteps& hashSteps(Kind kind) const { return kind == Kind::accuracy ? accuracy_steps : steps; }
+};
+
+/// All of them; names are unique.
+std::span<const GoldenScene> goldenScenes();
+/// @throws std::out_of_range for an unknown name
+const GoldenScene& goldenScene(std::string_view name);
+
+/// A scene that runs.
+class GoldenRun {
+  public:
+    GoldenRun(const GoldenScene& golden, Kind kind, std::int64_t threads);
+
+    /// Acts, then steps the world once.
+    void step();
+    void stepUntil(std::int64_t count);
+    const World& world() const { return run_.world(); }
+    double duration() const { return run_.scene().duration; }  ///< of the whole scene [s]
+
+  private:
+    std::span<const Action> left_;
+    SceneRun run_;
+};
+
+}  // namespace cairn::golden
