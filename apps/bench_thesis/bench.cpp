@@ -124,10 +124,12 @@ std::string summaryOf(const Json& section) {
     for (const Json& entry : section.at("entries")) {
         const Json& difference = entry.at("difference_percent");
         const std::string unit = entry.at("unit").get<std::string>();
+        const std::string differs = entry.at("shortened").get<bool>() ? "shortened"
+                                    : difference.is_null()            ? ""
+                                                           : fmt::format("{:+.0f} %", difference.get<double>());
         text += fmt::format("  {:<64} {:>10} {:>10} {:>9}\n",
                             entry.at("what").get<std::string>() + (unit.empty() ? "" : " [" + unit + "]"),
-                            numberText(entry.at("thesis")), numberText(entry.at("ours")),
-                            difference.is_null() ? "" : fmt::format("{:+.0f} %", difference.get<double>()));
+                            numberText(entry.at("thesis")), numberText(entry.at("ours")), differs);
     }
     for (const Json& goal : section.at("goals")) {
         text += fmt::format("  aim {}: {}\n", goal.at("reached").get<bool>() ? "reached" : "missed",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 
 #include "machine.h"
@@ -22,6 +23,11 @@ double quickDuration(const Run& run) {
     if (run.variant == Variant::greedy || run.variant == Variant::latest_first) return 1.5;
     if (run.scene == "stacks8" || run.scene == "well392") return 2;
     return 10;
+}
+
+/// Whether a run ends before the thesis's does.
+bool isShortened(const Run& run, const Plan& plan) {
+    return plan.extent == Extent::quick && quickDuration(run) < builtInScene(run.scene).duration;
 }
 
 double weightOf(const Run& run) {
@@ -132,6 +138,11 @@ Experiment experimentOf(const Run& run, const Plan& plan) {
         keyOf(run), std::move(scene), thesisSettings(run.preset, run.threads, run.variant), weightOf(run), {}};
     if (run.variant == Variant::plain && run.threads > 1) what.moments = thesisScene(run.scene).moments;
     return measureScene(std::move(what));
+}
+
+void markShortened(SectionResult& result, std::size_t first, const Run& run, const Plan& plan) {
+    if (!isShortened(run, plan)) return;
+    for (Entry& entry : std::span(result.entries).subspan(first)) entry.shortened = true;
 }
 
 std::int64_t threadsFor(const ThesisScene& scene, const Plan& plan) {

@@ -44,6 +44,10 @@ std::string keyOf(const Run& run);
 /// Runs that differ in nothing have the same key and are measured once for all sections.
 Experiment experimentOf(const Run& run, const Plan& plan);
 
+/// Marks the entries of a result from one on if a quick run ends their scene before the thesis's does: a number of a
+/// part of a scene is not to be compared with that of the whole. @param run that ends first
+void markShortened(SectionResult& result, std::size_t first, const Run& run, const Plan& plan);
+
 /// The threads that stand for the thesis's: as many, but no more than there are cores, and two at least.
 std::int64_t threadsFor(const ThesisScene& scene, const Plan& plan);
 

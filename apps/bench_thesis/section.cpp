@@ -18,7 +18,8 @@ Json toJson(const Entry& entry) {
                  {"thesis", toJson(entry.thesis)},
                  {"ours", toJson(entry.ours)},
                  {"difference_percent", difference ? Json(100 * *difference) : Json(nullptr)},
-                 {"note", entry.note}};
+                 {"note", entry.note},
+                 {"shortened", entry.shortened}};
     if (difference && std::abs(*difference) > explained_difference) json["explanation"] = explanationOf(entry);
     return json;
 }
@@ -46,7 +47,7 @@ std::vector<Section> allSections(const Plan& plan) {
 }
 
 std::optional<double> differenceOf(const Entry& entry) {
-    if (!entry.thesis || !entry.ours || *entry.thesis == 0) return {};
+    if (entry.shortened || !entry.thesis || !entry.ours || *entry.thesis == 0) return {};
     return *entry.ours / *entry.thesis - 1;
 }
 

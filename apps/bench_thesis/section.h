@@ -18,6 +18,7 @@ struct Entry {
     std::optional<double> ours;    ///< none where it did not come out, such as a time of something that never happens
     std::string note;              ///< what else is to be known, may be empty
     std::string explanation = {};  ///< of a difference; empty = that of explanations.cpp
+    bool shortened = false;  ///< found in a part of the thesis's scene, so that there is no factor between the two
 };
 
 /// One line of a figure.
@@ -105,7 +106,7 @@ std::vector<Section> allSections(const Plan& plan);
 
 /// Why a number differs by more than 30 % from the thesis's. @return empty if nothing is known
 std::string explanationOf(const Entry& entry);
-/// Ours / thesis − 1, if both are known.
+/// Ours / thesis − 1, if both are known and are of the same scene.
 std::optional<double> differenceOf(const Entry& entry);
 /// Above this difference an entry owes an explanation.
 inline constexpr double explained_difference = 0.3;

@@ -13,6 +13,7 @@ constexpr double real_time_ms = 1000 / simulation_steps_per_second;
 /// Tables 2 and 3: a scene's row, its figure and its pictures.
 void addScene(SectionResult& result, const ThesisScene& scene, const Plan& plan, const Series& series) {
     const std::string key = keyOf(plainRun(scene.name, plan));
+    const std::size_t first = result.entries.size();
     const double average = sum(series.total_ms) / static_cast<double>(series.steps());
     const auto share = [&](const std::vector<double>& part) { return 100 * sum(part) / sum(series.total_ms); };
     const std::string id = "5.1/" + scene.name;
@@ -25,6 +26,7 @@ void addScene(SectionResult& result, const ThesisScene& scene, const Plan& plan,
          fmt::format("{:.0f} % detection, {:.0f} % response; longest step {:.1f} ms", share(series.detection_ms),
                      share(series.response_ms), largest(series.total_ms)),
          processorPart(scene, plan, scene.average_ms / average)});
+    markShortened(result, first, plainRun(scene.name, plan), plan);
     result.figures.push_back(
         {id,
          scene.figure,

@@ -67,6 +67,7 @@ void addScene(SectionResult& result, const Published& thesis, const Plan& plan, 
     const BestStep response = bestStep(one.response_ms, several.response_ms, ratio_floor);
     const double share = 100 * sum(one.largest_batch) / sum(one.contacts);
     const std::string id = fmt::format("5.2/{}", scene.name);
+    const std::size_t first = result.entries.size();
     const std::string threads = fmt::format("thesis: {} threads; ours: {:.0f}", scene.machine.threads, several.threads);
     const double saved = 100 * (1 - several.total_s / one.total_s);
     const auto why = [&](double ours, double theirs) { return explain(scene, one, several, ours, theirs); };
@@ -83,6 +84,7 @@ void addScene(SectionResult& result, const Published& thesis, const Plan& plan, 
                               {},
                               share,
                               "one batch is one thread's work"});
+    markShortened(result, first, plainRun(scene.name, plan), plan);
     result.figures.push_back(
         {id,
          thesis.figure,

@@ -95,6 +95,7 @@ Ratios addScene(SectionResult& result, const Published& thesis, const Plan& plan
     const double fewer = 100 * (1 - sum(with.iterations) / sum(without.iterations));
     const std::string why = explain(fewer, speedup, thesis.speedup);
     const std::string id = fmt::format("5.3/{}", scene.name);
+    const std::size_t first = result.entries.size();
     result.entries.push_back({id + "/speedup", rowText(scene, "speed-up by damping"), "", thesis.speedup, speedup,
                               fmt::format("{:.0f} % fewer iterations", fewer), why});
     result.entries.push_back({id + "/best_step", rowText(scene, "best step, speed-up"), "", thesis.best_step,
@@ -108,6 +109,7 @@ Ratios addScene(SectionResult& result, const Published& thesis, const Plan& plan
          {{"damping 70 %", with.total_ms}, {"no damping", without.total_ms}},
          {{fmt::format("thesis, average {} ms with damping", scene.average_ms), scene.average_ms}}});
     addSleep(result, scene, with, without);
+    markShortened(result, first, undamped(scene.name, plan), plan);
     result.checks.push_back({scene.name + ": damping saves iterations", fewer > 0});
     if (plan.extent == Extent::full) {
         result.goals.push_back(

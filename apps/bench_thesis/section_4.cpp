@@ -68,6 +68,7 @@ void addScene(SectionResult& result, const Published& thesis, const Plan& plan, 
     const BestStep iterations = bestStep(latest.iterations, greedy.iterations, ratio_floor);
     const BestStep time = bestStep(latest.total_ms, greedy.total_ms, ratio_floor);
     const std::string id = fmt::format("5.4/{}", scene.name);
+    const std::size_t first = result.entries.size();
     result.entries.push_back(
         {id + "/fewer_iterations", rowText(scene, "fewer iterations"), "%", thesis.fewer, fewer,
          fmt::format("{:.0f} against {:.0f} in the whole run", sum(greedy.iterations), sum(latest.iterations))});
@@ -78,6 +79,7 @@ void addScene(SectionResult& result, const Published& thesis, const Plan& plan, 
                               thesis.best_iterations, iterations.ratio, fmt::format("step {}", iterations.step)});
     result.entries.push_back({id + "/best_step_time", rowText(scene, "best step, speed-up"), "", thesis.best_time,
                               time.ratio, fmt::format("step {}", time.step)});
+    markShortened(result, first, ordered(scene.name, plan, Variant::greedy), plan);
     addFigures(result, thesis, greedy, latest);
     result.checks.push_back(
         {scene.name + ": the highest closing speed needs at most half the iterations", part <= far_fewer});

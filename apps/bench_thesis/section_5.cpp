@@ -46,6 +46,7 @@ void addScene(SectionResult& result, const Published& thesis, const Plan& plan, 
         "contacts it has.",
         iterations);
     const std::string id = fmt::format("5.5/{}", scene.name);
+    const std::size_t first = result.entries.size();
     result.entries.push_back({id + "/speedup", rowText(scene, "performance against accuracy, speed-up"), "",
                               thesis.speedup, speedup,
                               fmt::format("the accuracy settings take {:.1f} times the iterations", iterations), why});
@@ -53,6 +54,7 @@ void addScene(SectionResult& result, const Published& thesis, const Plan& plan, 
                               thesis.average_ms, average, "", processorPart(scene, plan, thesis.average_ms / average)});
     result.entries.push_back({id + "/best_step", rowText(scene, "largest speed-up of a step"), "", thesis.best_step,
                               best.ratio, fmt::format("step {}", best.step), why});
+    markShortened(result, first, accurate(scene.name, plan), plan);
     result.figures.push_back({id,
                               thesis.figure,
                               fmt::format("{}, accuracy and performance", scene.name),

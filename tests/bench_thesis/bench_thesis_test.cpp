@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bench_thesis/bench.h"
+#include "bench_thesis/runs.h"
 #include "bench_thesis/section.h"
 #include "bench_thesis/series.h"
 #include "bench_thesis/store.h"
@@ -106,6 +107,32 @@ TEST(Entry, OwesAnExplanationOnlyWithAThesisValue) {
     EXPECT_FALSE(differenceOf({"id", "what", "", {}, 5.0, ""}).has_value());
     EXPECT_FALSE(differenceOf({"id", "what", "", 5.0, {}, ""}).has_value());
     EXPECT_DOUBLE_EQ(differenceOf({"id", "what", "", 4.0, 5.0, ""}).value(), 0.25);
+}
+
+TEST(Entry, OfAPartOfASceneHasNoFactorToTheThesis) {
+    SectionResult result;
+    result.entries = {{"5.1/cage2816/total", "what", "s", 356.0, 0.5, "", "712 times as fast"}};
+    const Section section{"5.1", "title", "text", {}, {}};
+    EXPECT_EQ(toJson(section, result).at("entries").at(0).at("explanation"), "712 times as fast");
+    result.entries.front().shortened = true;
+    const Json entry = toJson(section, result).at("entries").at(0);
+    EXPECT_TRUE(entry.at("difference_percent").is_null());
+    EXPECT_FALSE(entry.contains("explanation"));
+    EXPECT_EQ(entry.at("shortened"), true);
+}
+
+TEST(Runs, AreShortenedInAQuickRunOnlyAndOnlyWhereTheyEndEarly) {
+    const auto marked = [](Extent extent, const std::string& scene) {
+        const Plan plan{extent, 2};
+        SectionResult result;
+        result.entries = {{"before", "", "", {}, {}, ""}, {"after", "", "", {}, {}, ""}};
+        markShortened(result, 1, plainRun(scene, plan), plan);
+        EXPECT_FALSE(result.entries[0].shortened);
+        return result.entries[1].shortened;
+    };
+    EXPECT_TRUE(marked(Extent::quick, "cage2816"));
+    EXPECT_FALSE(marked(Extent::quick, "stacks5"));
+    EXPECT_FALSE(marked(Extent::full, "cage2816"));
 }
 
 TEST(Sections, NameEachExperimentOnceAndShareTheSameRuns) {

@@ -22,8 +22,27 @@ ENTRIES = (
 )
 # What may never happen within a run has no value: bodies that do not fall asleep, a ball that spins on.
 MAY_LACK = [f"5.3/{scene}/asleep_undamped" for scene in E6400] + ["5.6/spin/vertical"]
+# A quick run ends these scenes early: no number of theirs may be compared with the thesis's, which is of the whole one.
+SHORTENED = (
+    [f"5.1/{scene}/" for scene in I7] + ["5.2/stacks8/"] + [f"5.4/{scene}/" for scene in E6400[:2]]
+    + [f"5.5/{scene}/" for scene in E6400]
+)
 FIGURES = {"5.1": 6, "5.2": 6, "5.3": 6, "5.4": 4, "5.5": 3, "5.6": 4}
 PICTURE_ROWS = {"5.1": 6, "5.5": 6, "5.6": 2}
+
+
+def compared_wrongly(entries: dict) -> list[str]:
+    """Entries of a part of a scene that have a factor to the thesis, and others that are said to be of a part."""
+    found = []
+    for name, entry in entries.items():
+        shortened = name.startswith(tuple(SHORTENED))
+        if entry["shortened"] != shortened:
+            found.append(f"{name} is {'not ' * shortened}said to be shortened")
+        if shortened and (entry["difference_percent"] is not None or "explanation" in entry):
+            found.append(f"{name} compares a part of a scene with the thesis's whole one")
+        if not shortened and entry["thesis"] and entry["ours"] is not None and entry["difference_percent"] is None:
+            found.append(f"{name} is not compared with the thesis")
+    return found
 
 
 def problems(report: dict) -> list[str]:
@@ -33,6 +52,7 @@ def problems(report: dict) -> list[str]:
     found += [f"no entry {name}" for name in ENTRIES if name not in entries]
     found += [f"unexpected entry {name}" for name in entries if name not in ENTRIES]
     found += [f"{name} has no value" for name, entry in entries.items() if entry["ours"] is None and name not in MAY_LACK]
+    found += compared_wrongly(entries)
     for section, count in FIGURES.items():
         figures = sections[section]["figures"]
         if len(figures) != count:

@@ -39,7 +39,7 @@ function row(entry: Entry): HTMLElement {
     element('th', { scope: 'row' }, ...explanationCell(entry)),
     element('td', {}, withUnit(entry.thesis, entry.unit)),
     element('td', { class: 'ours' }, withUnit(entry.ours, entry.unit)),
-    element('td', {}, difference === null ? '' : formatDifference(difference)),
+    element('td', {}, entry.shortened ? 'shortened' : difference === null ? '' : formatDifference(difference)),
   );
 }
 
@@ -119,12 +119,12 @@ const speedups: Record<string, string> = {
   '5.5': 'speed-up of performance over accuracy',
 };
 
-/** The entries that are factors, and the thesis gives a number for. */
+/** The entries that are factors, and the thesis gives a number of the same scene for. */
 function factors(): Factor[] {
   const rows: Factor[] = [];
   for (const { id: section, entries } of report.sections) {
-    for (const { id, thesis, ours } of entries) {
-      if (thesis === null || ours === null || thesis <= 0 || ours <= 0) continue;
+    for (const { id, thesis, ours, shortened } of entries) {
+      if (shortened || thesis === null || ours === null || thesis <= 0 || ours <= 0) continue;
       const [, scene, quantity] = id.split('/') as [string, string, string];
       if (section === '5.1' && quantity === 'average') {
         rows.push({ section, scene, what: 'speed over the thesis', thesis: 1, ours: thesis / ours });
@@ -154,7 +154,7 @@ function show(): void {
       element('p', { class: 'quiet' }, machineText()),
       element('p', { class: 'quiet' }, factorText()),
       ...(report.extent === 'quick'
-        ? [element('p', { class: 'banner' }, 'A quick run: scenes are shortened and measured once. The signs count, not the numbers.')]
+        ? [element('p', { class: 'banner' }, 'A quick run: scenes are shortened and measured once. The signs count, not the numbers; beside those of a part of a scene stands no factor to the thesis.')]
         : []),
       ...report.warnings.map((text) => element('p', { class: 'banner' }, text)),
       element('nav', {}, ...links),

@@ -8,6 +8,8 @@ export interface Entry {
   difference_percent: number | null;
   note: string;
   explanation?: string;
+  /** Ours is of a part of the thesis's scene: no factor to it. */
+  shortened: boolean;
 }
 
 export interface Line {
