@@ -189,7 +189,9 @@ Json jsonOf(const Entry& entry, const std::vector<Entry>& entries) {
 
 std::string tableOf(const std::vector<Entry>& entries) {
     constexpr const char* head = "{:<46} {:>7} {:>9} {:>9} {:>9} {:>7} {:>9} {:>7}\n";
-    std::string text = "µs per body and time step\n\n";
+    std::string text =
+        "µs per body and time step\n"
+        "sleeping off; bodies that came to rest are held (rest_speed), but in rows nothing_held\n\n";
     text += fmt::format(fmt::runtime(head), "", "", "wall", "processor", "response,", "", "contacts", "bytes");
     text += fmt::format(fmt::runtime(head), "heap", "bodies", "us", "us", "wall us", "growth", "a body", "a body");
     for (const Entry& entry : entries) {
@@ -254,8 +256,11 @@ Scene scalingScene(const std::string& layout, std::int64_t bodies) {
 Outcome runScaling(const ScalingOptions& options) {
     std::vector<std::int64_t> sizes = options.sizes.empty() ? scalingSizes() : options.sizes;
     if (options.extent == Extent::quick) sizes.resize(1);
-    std::vector<Variant> variants{{}};
-    variants.insert(variants.end(), options.variants.begin(), options.variants.end());
+    std::vector<Variant> variants{{}, nothingHeld({})};
+    for (const Variant& variant : options.variants) {
+        variants.push_back(variant);
+        variants.push_back(nothingHeld(variant));
+    }
     const std::array<std::string, 2> layouts = {"one", "many"};
     for (const std::int64_t size : sizes) {  // refused before hours of work
         for (const Variant& variant : variants)
