@@ -48,22 +48,10 @@ std::string rowOf(const Json& q) {
                        errorOf(q), q.at("order").get<std::string>(), verdict, cell(q.at("note")));
 }
 
-std::string tableOf(const Json& c) {
-    std::string text = fmt::format("### {} (`{}`)\n\n{} Source: {}.\n\n", c.at("title").get<std::string>(),
-                                   c.at("name").get<std::string>(), c.at("setup").get<std::string>(),
-                                   c.at("source").get<std::string>());
-    text +=
-        "| quantity | conditions | expected | measured | error | order | met | remark "
-        "|\n|---|---|---|---|---|---|---|---|\n";
-    for (const Json& q : c.at("quantities")) text += rowOf(q);
-    return text + "\n";
-}
-
 }  // namespace
 
-std::string toMarkdown(const Json& report) {
-    std::string overview = "| case | group | targets met | seconds |\n|---|---|---|---|\n";
-    std::string tables;
+std::string overviewMarkdown(const Json& report) {
+    std::string text = "| case | group | targets met | seconds |\n|---|---|---|---|\n";
     for (const Json& c : report.at("cases")) {
         int judged = 0;
         int met = 0;
@@ -72,11 +60,22 @@ std::string toMarkdown(const Json& report) {
             ++judged;
             if (q.at("passed").get<bool>()) ++met;
         }
-        overview += fmt::format("| `{}` | {} | {} of {} | {:.0f} |\n", c.at("name").get<std::string>(),
-                                c.at("group").get<std::string>(), met, judged, c.at("seconds").get<double>());
-        tables += tableOf(c);
+        const std::string name = c.at("name");
+        text += fmt::format("| [`{}`](validation/{}.md) | {} | {} of {} | {:.0f} |\n", name, name,
+                            c.at("group").get<std::string>(), met, judged, c.at("seconds").get<double>());
     }
-    return overview + "\n" + tables;
+    return text;
+}
+
+std::string caseMarkdown(const Json& c) {
+    std::string text = fmt::format("# {} (`{}`)\n\n{} Source: {}. [All cases](../validation.md).\n\n",
+                                   c.at("title").get<std::string>(), c.at("name").get<std::string>(),
+                                   c.at("setup").get<std::string>(), c.at("source").get<std::string>());
+    text +=
+        "| quantity | conditions | expected | measured | error | order | met | remark "
+        "|\n|---|---|---|---|---|---|---|---|\n";
+    for (const Json& q : c.at("quantities")) text += rowOf(q);
+    return text;
 }
 
 }  // namespace cairn::validation

@@ -116,12 +116,16 @@ Json measure(const Case& c, const ValidateOptions& options, const std::vector<To
 }
 
 void write(const ValidateOptions& options, ValidateOutcome& outcome) {
+    const std::filesystem::path pages = options.out / "validation";
     std::error_code error;
-    std::filesystem::create_directories(options.out, error);
-    if (error) throw IoError(fmt::format("{}: cannot be made: {}", options.out.string(), error.message()));
+    std::filesystem::create_directories(pages, error);
+    if (error) throw IoError(fmt::format("{}: cannot be made: {}", pages.string(), error.message()));
     outcome.json = options.out / "validation.json";
     thesis::writeWhole(outcome.json, outcome.report.dump(1) + "\n");
-    thesis::writeWhole(options.out / "validation.md", toMarkdown(outcome.report));
+    thesis::writeWhole(options.out / "validation.md", overviewMarkdown(outcome.report));
+    for (const Json& c : outcome.report.at("cases")) {
+        thesis::writeWhole(pages / (c.at("name").get<std::string>() + ".md"), caseMarkdown(c));
+    }
     if (const auto page = makePage(outcome.report)) {
         outcome.page = options.out / "index.html";
         thesis::writeWhole(outcome.page, *page);

@@ -32,7 +32,8 @@ struct ValidateOutcome {
     std::size_t passed = 0;  ///< of the cases
 };
 
-/// Runs the cases and writes validation.json, validation.md and index.html. @throws InputError for an unknown name,
+/// Runs the cases and writes validation.json, index.html, validation.md and a page for each case in the folder
+/// validation. @throws InputError for an unknown name,
 /// IoError, Interrupted
 ValidateOutcome runValidation(const ValidateOptions& options);
 

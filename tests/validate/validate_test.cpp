@@ -5,6 +5,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <set>
@@ -113,6 +115,43 @@ TEST(Validation, OfSingleCasesKeepsWhatIsStoredOfTheOthers) {
     EXPECT_EQ(namesIn(runValidation(options).json), std::vector<std::string>{"parabola"});
     std::ofstream(second.json) << "{}";
     EXPECT_THROW(runValidation(options), IoError);
+}
+
+std::string textOf(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(Validation, WritesAnOverviewThatLeadsToAPageOfEachCase) {
+    const Folder folder;
+    ValidateOptions options;
+    options.out = folder.path();
+    options.extent = Extent::quick;
+    options.only = {"parabola", "slide-to-roll"};
+    runValidation(options);
+    const std::string overview = textOf(folder.path() / "validation.md");
+    EXPECT_NE(overview.find("| [`parabola`](validation/parabola.md) | Free flight | "), std::string::npos) << overview;
+    EXPECT_NE(overview.find("(validation/slide-to-roll.md)"), std::string::npos) << overview;
+    const std::string page = textOf(folder.path() / "validation" / "parabola.md");
+    EXPECT_TRUE(page.starts_with("# A thrown ball follows the parabola (`parabola`)\n\n")) << page;
+    EXPECT_NE(page.find("| largest \\|Δx\\| / \\|x\\|, exact flight | Δt = 1/240 s | at most 1e-12 | "),
+              std::string::npos)
+        << page;
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "validation" / "slide-to-roll.md"));
+}
+
+TEST(Validation, JudgesStacksHeldAtRestAndWithNothingHeld) {
+    ValidateOptions options;
+    options.extent = Extent::quick;
+    options.only = {"mass-ratios"};
+    const ValidateOutcome outcome = runValidation(options);
+    std::map<std::string, double> resolutions;
+    for (const Json& q : outcome.report.at("cases").at(0).at("quantities")) {
+        if (q.at("what") == "resolutions per step") resolutions[q.at("setup")] = q.at("measured");
+    }
+    const std::string stack = "ratio 1000, performance, Δt = 1/240 s, accelerated_sweeps, ";
+    EXPECT_LT(resolutions.at(stack + "sleeping off"), 1);
+    EXPECT_GT(resolutions.at(stack + "nothing held"), 1);
 }
 
 TEST(Quantity, MissesItsTargetWhenTheErrorIsTooLargeOrNotANumber) {
