@@ -5,7 +5,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from checks import (dependencies, doc_blocks, formatting, includes, links, openmp, readme, sources, thesis_map, version)
+from checks import (dependencies, doc_blocks, formatting, includes, links, listings, openmp, sources, thesis_map, version)
 
 
 class Tree(unittest.TestCase):
@@ -120,19 +120,34 @@ class DocBlocks(Tree):
         self.finds(doc_blocks, "a.h:6: no doc block: inline int g()")
 
 
-class Readme(Tree):
-    def test_the_quote_must_be_verbatim(self):
+class Listings(Tree):
+    def setUp(self):
+        super().setUp()
         self.put("examples/hello.cpp", "int main() {}\n")
-        self.put("README.md", "# T\n```cpp\nint main() {}\n```\n")
-        self.finds(readme)
-        self.put("README.md", "# T\n```cpp\nint main() { }\n```\n")
-        self.finds(readme, "word for word")
+        self.put("README.md", "```cpp\nint main() {}\n```\n")
+        self.put("docs/hello.md", "```cpp\n// One.\n```\n\n```cpp\n// Two.\n```\n")
+        self.put("examples/hello/1_a.cpp", "// One.\n")
+        self.put("examples/hello/2_b.cpp", "// Two.\n")
 
-    def test_the_program_must_be_short(self):
-        hello = "//\n" * (readme.LONGEST + 1)
+    def test_programs_are_quoted_word_for_word(self):
+        self.finds(listings)
+        self.put("README.md", "```cpp\nint main() { }\n```\n")
+        self.put("examples/hello/2_b.cpp", "// Two!\n")
+        self.finds(listings, "README.md: no cpp block is examples/hello.cpp", "docs/hello.md: no cpp block is examples/hello/2_b",
+                   "is no program of examples/hello: // Two.")
+
+    def test_the_tutorial_has_them_in_their_order(self):
+        self.put("docs/hello.md", "```cpp\n// Two.\n```\n\n```cpp\n// One.\n```\n")
+        self.finds(listings, "in their order")
+
+    def test_they_must_be_short(self):
+        hello = "//\n" * (listings.LONGEST + 1)
+        step = "//\n" * (listings.LONGEST_OF_THE_TUTORIAL + 1)
         self.put("examples/hello.cpp", hello)
         self.put("README.md", f"```cpp\n{hello}```\n")
-        self.finds(readme, "26 lines")
+        self.put("examples/hello/1_a.cpp", step)
+        self.put("docs/hello.md", f"```cpp\n{step}```\n\n```cpp\n// Two.\n```\n")
+        self.finds(listings, "26 lines", "46 lines")
 
 
 class Links(Tree):
