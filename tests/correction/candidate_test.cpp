@@ -92,7 +92,9 @@ TEST(Candidate, BGoesBackOnlyIfItsStepWasLongEnough_Eq2_3_2b) {
 
 TEST(Candidate, AStepOfZeroLengthIsNoWayBack) {
     Pair pair;
-    for (const Candidate& candidate : pair.candidates()) EXPECT_EQ(candidate.kind, CandidateKind::normal);
+    const CandidateList list = pair.candidates();
+    EXPECT_EQ(list.size(), 2U);
+    for (const Candidate& candidate : list) EXPECT_EQ(candidate.kind, CandidateKind::normal);
 }
 
 TEST(Candidate, AFixedBodyHasNone) {

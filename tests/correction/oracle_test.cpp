@@ -67,6 +67,7 @@ TEST(PropagatedCorrection, MakesNoContactDeeperThanItWasOrThanMayRemain) {
 }
 
 TEST(PropagatedCorrection, MovesPositionsOnlyAndOfBodiesInReachOnly) {
+    std::uint64_t moved_bodies = 0;
     for (std::uint64_t seed = 0; seed < worlds; ++seed) {
         ContactScene scene = world(seed);
         // What a penetrating contact can reach, found by repeated passes over all contacts.
@@ -91,6 +92,7 @@ TEST(PropagatedCorrection, MovesPositionsOnlyAndOfBodiesInReachOnly) {
                 ASSERT_EQ(scene.asleep[i], before.asleep[i]) << "seed " << seed << ", body " << i;
             }
             const bool moved = scene.position[i] != before.position[i];
+            if (moved) ++moved_bodies;
             if (before.asleep[i] != 0) {
                 ASSERT_EQ(scene.asleep[i] == 0, moved) << "seed " << seed;
             }
@@ -99,6 +101,7 @@ TEST(PropagatedCorrection, MovesPositionsOnlyAndOfBodiesInReachOnly) {
             ASSERT_EQ(scene.contacts[i].normal, before.contacts[i].normal);
         }
     }
+    EXPECT_GT(moved_bodies, worlds) << "more than one per world";
 }
 
 TEST(PropagatedCorrection, GivesTheSameBitsWithFreshAndWithUsedMemory) {

@@ -73,6 +73,7 @@ TEST(PushGraph, SeesNewDistancesWhenToldOfThem) {
 TEST(PushGraph, ForgetsWaysWithTheirContacts) {
     Row row;
     row.learn();
+    ASSERT_TRUE(row.isBlocked({1, 0, 0}));
     row.graph.reset(row.table, row.contacts, row.state(), row.remaining());
     EXPECT_FALSE(row.isBlocked({1, 0, 0}));
 }

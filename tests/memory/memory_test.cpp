@@ -111,6 +111,7 @@ TEST(Rollback, SavingIntoTheSameBufferTakesNoMemoryForTheState) {
     run.world().saveTo(buffer);
     // The names of choices among the settings are texts, of which the long ones need the heap for a moment.
     EXPECT_LE(heap().allocations - before, 4);
+    EXPECT_EQ(buffer, run.world().save());
 }
 
 TEST(Rollback, KeepingAndLoadingMomentsTakesNothingFromTheHeap) {

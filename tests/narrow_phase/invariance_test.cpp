@@ -114,6 +114,7 @@ TEST(AllPairs, AbsurdlyFarBodiesDoNotTouch) {
 /// Situations in general position, so that no preference is a tie; the same for every motion.
 TEST(AllPairs, MovingBothBodiesMovesTheContact) {
     Random random(23);
+    int contacts = 0;
     for (int i = 0; i < 20000; ++i) {
         const Shape a = random.solid(1);
         const Shape b = anyShape(random, 1);
@@ -127,6 +128,7 @@ TEST(AllPairs, MovingBothBodiesMovesTheContact) {
         const Manifold after = contactOf(a, moved(pose_a), b, moved(pose_b), 0.01);
         ASSERT_EQ(m.size == 0, after.size == 0);
         if (m.size == 0) continue;
+        ++contacts;
         // Two boxes change places in the canonical order; the preference for the first one's faces may then choose
         // another of two nearly equal contacts.
         ASSERT_NEAR(deepest(m), deepest(after), 2e-3 + 0.04 * std::abs(deepest(m))) << "pose " << i;
@@ -136,10 +138,12 @@ TEST(AllPairs, MovingBothBodiesMovesTheContact) {
         const bool round = std::holds_alternative<Cylinder>(a) || std::holds_alternative<Cylinder>(b);
         ASSERT_LE((motion.orientation * m.normal - after.normal).norm(), round ? 1e-4 : 1e-6) << "pose " << i;
     }
+    EXPECT_GT(contacts, 4000);
 }
 
 TEST(AllPairs, ContactsFarFromTheOriginAreThoseNearIt) {
     Random random(24);
+    int contacts = 0;
     const Vec3 far(1048576, -2097152, 524288);  // multiples of a power of two: positions below keep all their bits
     for (int i = 0; i < 20000; ++i) {
         const auto grid = [&]() -> Vec3 {
@@ -156,12 +160,14 @@ TEST(AllPairs, ContactsFarFromTheOriginAreThoseNearIt) {
                                         {pose_b.position + far, pose_b.orientation}, 0.01);
         ASSERT_EQ(near.size, away.size) << "pose " << i;
         if (near.size == 0) continue;
+        ++contacts;
         ASSERT_EQ(near.normal, away.normal);
         for (std::size_t k = 0; k < near.size; ++k) {
             ASSERT_EQ(near.points[k].distance, away.points[k].distance);
             ASSERT_LE((near.points[k].point + far - away.points[k].point).norm(), 1e-9);
         }
     }
+    EXPECT_GT(contacts, 4000);
 }
 
 Shape scaled(const Shape& shape, double factor) {

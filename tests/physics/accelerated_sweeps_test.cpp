@@ -37,6 +37,7 @@ TEST(AcceleratedSweeps, HoldAnAwakeTowerOfTenWithinAMillimetre) {
     settings.resolution.resolution_threshold = 8e-6;
     SceneRun run(scene, settings);
     for (int i = 0; i < 20 * 240; ++i) run.step();
+    EXPECT_EQ(run.world().contacts().size(), 40U);
     for (std::size_t i = 1; i < run.ids().size(); ++i) {
         EXPECT_LT((run.world().pose(run.ids()[i]).position - scene.bodies[i].position).norm(), 1e-3) << i;
     }

@@ -169,6 +169,7 @@ TEST(TouchingRestitution, LetsABallComeToRestAndStay) {
                 ground.world.step();
                 ASSERT_LT(std::abs(ground.world.linearVelocity(ground.id).z()), 1e-5) << rate << ", " << restitution;
             }
+            EXPECT_NEAR(ground.world.pose(ground.id).position.z(), 0.1, 1e-3) << rate << ", " << restitution;
         }
     }
 }
@@ -303,12 +304,18 @@ TEST(Diagnostics, CountWhatAHingeGives) {
     pendulum.a = world.addBody(ball(0.1, Vec3(1, 0, 0)));
     pendulum.anchor = Vec3::Zero();
     world.addJoint(pendulum);
+    Vec3 from_hinge = Vec3::Zero();
+    Vec3 from_gravity = Vec3::Zero();
     for (int i = 0; i < 500; ++i) {
         world.step();
         const Diagnostics& d = world.statistics().diagnostics;
         ASSERT_LT(d.momentum_error, 1e-9) << i;
         ASSERT_LT(d.angular_momentum_error, 1e-4) << i;
+        from_hinge += d.fixed_impulse;
+        from_gravity += d.force_impulse;
     }
+    EXPECT_GT(from_hinge.norm(), 1);
+    EXPECT_LT((from_hinge + from_gravity - world.linearMomentum()).norm(), 1e-9);
 }
 
 }  // namespace

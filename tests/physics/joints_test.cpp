@@ -223,6 +223,7 @@ TEST_P(EveryResolution, JointedBodiesKeepTheirMomentum) {
     w.run(2);
     EXPECT_LE((w.world.linearMomentum() - linear).norm(), 1e-11 * linear.norm());
     EXPECT_LE((w.world.angularMomentum() - angular).norm(), 1e-8 * angular.norm());
+    EXPECT_GT((w.world.pose(*last).position - Vec3(1.5, 0, 0)).norm(), 0.5) << "the last one moved";
     for (const JointId joint : w.world.joints()) EXPECT_LE(w.world.joint(joint).error, 1e-8);
 }
 
@@ -304,11 +305,14 @@ TEST(Joints, BallsOnHingesBetweenCradleRodsKeepTheirEnergyForALongTime) {
     }
     const double before = w.energy() + 3 * g * length;
     double worst = 0;
+    double farthest = 0;
     for (int i = 0; i < 20 * 2 * 960; ++i) {
         w.world.step();
         worst = std::max(worst, std::abs(w.energy() + 3 * g * length - before));
+        farthest = std::max(farthest, w.world.pose(balls[2]).position.x() - 4 * radius);
     }
     EXPECT_LE(worst, 2e-4 * before);
+    EXPECT_NEAR(farthest, length * std::sin(0.3), 0.01) << "the last ball swings as far as the first";
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ TEST_P(Standing, StandsAwakeWithoutSinkingBelowTheThreshold) {
     }
     EXPECT_LT(drift(run), 0.02);
     EXPECT_LE(overlap, settings.correction.penetration_threshold + 1e-9);
+    EXPECT_GE(run.world().contacts().size(), scene.bodies.size() - 1) << "they stand on each other";
 }
 
 INSTANTIATE_TEST_SUITE_P(Stacks, Standing, testing::Values("tower:10", "wall:10"), [](const auto& param) {

@@ -55,6 +55,7 @@ double drift(const Shape& shape, double height, double origin, int count, double
     std::vector<Vec3> before;
     for (const BodyId id : ids) before.push_back(ground.world.pose(id).position);
     ground.run(seconds);
+    EXPECT_GE(ground.world.contacts().size(), ids.size()) << "they stand on each other";
     double farthest = 0;
     for (std::size_t i = 0; i < ids.size(); ++i) {
         farthest = std::max(farthest, (ground.world.pose(ids[i]).position - before[i]).norm());
@@ -96,6 +97,8 @@ TEST(Shapes, ABodyMadeOfPartsFallsAndTurnsLikeTheWhole) {
     const BodyId hull = add(ConvexHull(corners), {1, 0, 0}, 4);
     ground.run(0.5);
     const Pose expected = ground.world.pose(box);
+    EXPECT_NEAR(expected.position.z(), 5 + 3 * 0.5 - 0.5 * 10 * 0.25, 0.01);
+    EXPECT_GT(expected.orientation.angularDistance(turned), 0.1);
     double y = 0;
     for (const BodyId id : {parts, hull}) {
         y += 2;

@@ -38,6 +38,7 @@ TEST(EnergyBound, ForgetsImpulsesOfAnotherSituation) {
     pile.resolve(fewSweeps());
     EXPECT_LE(pile.energy(), before * (1 + 1e-12));
     for (const Contact& contact : pile.contacts) EXPECT_LT(contact.impulse.norm(), 10);
+    EXPECT_GT(pile.contacts[0].impulse.norm(), 0.01) << "the ball on the table was stopped";
 }
 
 TEST(EnergyBound, LeavesGoodImpulsesAlone) {

@@ -48,6 +48,7 @@ TEST(Demonstrations, CatapultIsAtRestUntilTheWeightFalls) {
     for (std::size_t i = 2; i + 1 < scene.bodies.size(); ++i) {
         EXPECT_LT((run.world().pose(run.ids()[i]).position - scene.bodies[i].position).norm(), 2e-3) << i;
     }
+    EXPECT_LT(run.world().linearVelocity(run.ids().back()).z(), -1) << "the weight falls";
 }
 
 // Thesis §5.6: as many balls leave as arrive, whatever their number.

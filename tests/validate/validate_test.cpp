@@ -73,6 +73,7 @@ TEST(Validation, RefusesAnUnknownCaseAndNamesTheKnownOnes) {
 TEST(Validation, NamesEveryCaseOnce) {
     std::set<std::string_view> names;
     for (const Case& c : allCases()) EXPECT_TRUE(names.insert(c.name).second) << c.name;
+    EXPECT_FALSE(names.empty());
 }
 
 /// A folder of the tests, removed at the end.

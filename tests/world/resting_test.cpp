@@ -92,6 +92,7 @@ TEST(Rest, AnImpactGoesThroughWhatRests) {
         const Vec3 difference = rests.world.pose(rests.box[i]).position - awake.world.pose(awake.box[i]).position;
         EXPECT_LT(difference.norm(), 1e-3) << "box " << i;
     }
+    EXPECT_GT(rests.world.pose(rests.box[2]).position.x(), 0.01) << "it slid";
 }
 
 /// How far a box gets down a slope in two seconds, from rest [m].
