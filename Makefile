@@ -1,12 +1,15 @@
 # The daily commands. Everything they need is installed when it is missing (Debian packages of tools/packages.txt).
-#   make run       build the release and run the main scene; where there is a display, show it in the browser
-#   make test      build the release and run all tests
-#   make golden    list the state hashes of the golden runs that changed; make golden UPDATE=1 keeps the new ones
+#   make run       build the release of the program and run the main scene; with a display, show it in the browser
+#   make check     after an edit: the tests of the engine's rooms and of the API, and the golden runs on one thread
+#   make test      build everything and run all tests
+#   make cairn-view | cairn-bench | cairn-bench-thesis | cairn-validate | programs   build what stands beside the program
+#   make golden    list which golden runs changed; make golden UPDATE=1 renews tests/golden/hashes.json
 #   make sanitize  run the tests under the address, undefined-behaviour and thread sanitizers
 #   make coverage  measure which lines of detection and response the tests run
 #   make fuzz SECONDS=60   fuzz the readers, the narrow phase and the world, each target for so long
 #   make soak SIMULATED=3600 WALL=3600   pour a mixed pile for so many seconds: nothing may leak, slow down or creep
 #   make thesis    repeat every benchmark of the thesis: report/index.html
+#   make validate  measure the physics against closed forms and experiments: validation/index.html
 #   make bench SUITE=peers   measure a suite (kernels, scenes, scaling, peers) and add it to bench/results
 #   make results   measure the scenes and rewrite the table in README.md
 #   make format | tidy | install PREFIX=DIR | clean
@@ -19,38 +22,54 @@ SECONDS ?= 60
 SIMULATED ?= 3600
 WALL ?= 3600
 SOURCES = $$(find include src apps bench tests examples -name '*.h' -o -name '*.cpp')
+CONFIGURE = cmake --preset release --log-level=WARNING
+BUILD = cmake --build --preset release --target
 
 # A compiler cache is used where there is one.
 export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
 
-.PHONY: run test golden sanitize coverage fuzz soak thesis bench validate results format tidy install clean
+COMPANIONS = cairn-view cairn-bench cairn-bench-thesis cairn-validate
+
+.PHONY: run check test golden sanitize coverage fuzz soak thesis bench validate results format tidy install clean \
+    programs $(COMPANIONS)
 
 run:
 	@tools/install_packages build
-	@cmake --preset release --log-level=WARNING
-	@cmake --build --preset release --target cairn_cli
+	@$(CONFIGURE)
+	@$(BUILD) cairn_cli
 	build/release/cairn run $(SCENE) --record build/$(subst :,-,$(SCENE)).h5
-	@if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ]; then build/release/cairn view $(SCENE); fi
+	@if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ]; then $(MAKE) cairn-view && build/release/cairn view $(SCENE); fi
+
+$(COMPANIONS) programs:
+	@tools/install_packages build companions
+	@$(CONFIGURE)
+	@$(BUILD) cairn_cli $@
+
+check:
+	@tools/install_packages build check
+	@$(CONFIGURE)
+	@$(BUILD) check_programs
+	@ctest --preset release -j$(JOBS) --no-tests=error --label-regex check
 
 test:
-	@tools/install_packages build test
-	@cmake --preset release --log-level=WARNING
+	@tools/install_packages build companions check test
+	@$(CONFIGURE) -DCAIRN_REQUIRE_ALL=ON
 	@cmake --build --preset release
-	@ctest --preset release -j$(JOBS)
+	@ctest --preset release -j$(JOBS) --no-tests=error
 
 golden:
-	@tools/install_packages build test
-	@cmake --preset release --log-level=WARNING
-	@cmake --build --preset release --target golden
+	@tools/install_packages build check
+	@$(CONFIGURE)
+	@$(BUILD) golden
 	@build/release/tests/golden/golden tests/golden/hashes.json $(if $(UPDATE),--update)
 
 sanitize:
-	@tools/install_packages build test develop
+	@tools/install_packages build check develop
 	@tools/sanitize asan-ubsan
 	@tools/sanitize tsan
 
 coverage:
-	@tools/install_packages build test develop
+	@tools/install_packages build check develop
 	@tools/coverage
 
 fuzz:
@@ -58,48 +77,41 @@ fuzz:
 	@tools/fuzz $(SECONDS)
 
 soak:
-	@tools/install_packages build
+	@tools/install_packages build check
 	@tools/soak $(SIMULATED) $(WALL)
 
-thesis:
-	@tools/install_packages build
-	@cmake --preset release --log-level=WARNING
-	@cmake --build --preset release --target cairn_cli
+thesis: cairn-view cairn-bench-thesis
 	build/release/cairn bench thesis --out report
 
 bench:
-	@tools/install_packages build bench
-	@cmake --preset release --log-level=WARNING
-	@cmake --build --preset release --target cairn_cli
+	@tools/install_packages bench
+	@$(MAKE) cairn-bench
 	tools/record_results $(SUITE)
 
-validate:
-	@tools/install_packages build
-	@cmake --preset release --log-level=WARNING
-	@cmake --build --preset release --target cairn_cli
+validate: cairn-validate
 	build/release/cairn validate --out validation
 
 results:
-	@tools/install_packages build
-	@cmake --preset release --log-level=WARNING
-	@cmake --build --preset release --target cairn_cli
+	@tools/install_packages build bench
+	@$(CONFIGURE)
+	@$(BUILD) cairn_cli
 	tools/readme_results
 
 format:
 	@tools/install_packages test
 	clang-format -i $(SOURCES)
 
+# Every source is compiled alone here, so that each is looked at, and none lives on what its neighbours include.
 tidy:
-	@tools/install_packages build develop
-	@cmake --preset release --log-level=WARNING
-	run-clang-tidy -quiet -p build/release -j $(JOBS) "$(CURDIR)/(src|apps)/"
-	cppcheck --quiet --project=build/release/compile_commands.json --file-filter='src/*' \
+	@tools/install_packages build companions develop
+	@cmake --preset release --log-level=WARNING -B build/tidy -DCAIRN_UNITY=OFF -DCAIRN_BUILD_TESTS=OFF
+	@cmake --build build/tidy
+	run-clang-tidy -quiet -p build/tidy -j $(JOBS) "$(CURDIR)/(src|apps)/"
+	cppcheck --quiet --project=build/tidy/compile_commands.json --file-filter='src/*' \
 	    --enable=warning,performance,portability --inline-suppr --suppress='*:/usr/*' --error-exitcode=1 -j $(JOBS)
 
-install:
-	@tools/install_packages build
-	@cmake --preset release --log-level=WARNING
-	@cmake --build --preset release --target cairn cairn_cli
+install: programs
+	@$(BUILD) cairn
 	cmake --install build/release --prefix $(PREFIX)
 
 clean:

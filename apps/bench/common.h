@@ -26,6 +26,9 @@ enum class Extent {
     quick  ///< shortened, once: shows that it works; the numbers do not count
 };
 
+/// The longest that a scene runs in a quick measurement [s].
+inline constexpr double quick_seconds = 0.5;
+
 /// Cairn with other settings, beside the one that every run has.
 struct Variant {
     std::string name;

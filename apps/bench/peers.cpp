@@ -11,8 +11,6 @@ namespace cairn::bench {
 
 namespace {
 
-constexpr double quick_seconds = 0.5;
-
 /// One engine in one scene.
 struct Entry {
     std::string scene;

@@ -26,7 +26,7 @@ struct Phase {
 constexpr std::array<Phase, 2> phases = {{{"falling", 0.5, 24}, {"settled", 4, 24}}};
 
 /// What is the same in every repetition, and the times.
-struct Entry {
+struct ScalingEntry {
     std::string name;
     std::string series;  ///< entries of one series differ in the number of bodies only
     std::size_t bodies = 0;
@@ -88,18 +88,18 @@ class Heap {
 };
 
 /// Some time steps from a start on.
-struct Run {
+struct ScalingRun {
     Times times;
     Statistics total;
 };
 
-Run measure(const Start& start, std::int64_t threads, int steps, Entry& entry) {
+ScalingRun measure(const Start& start, std::int64_t threads, int steps, ScalingEntry& entry) {
     World world = World::restore(start.snapshot);
     Settings settings = world.settings();
     settings.parallel.threads = threads;
     world.setSettings(settings);
     world.step();  // makes room
-    Run run;
+    ScalingRun run;
     const Stopwatch stopwatch;
     for (int i = 0; i < steps; ++i) {
         world.step();
@@ -117,11 +117,11 @@ double sumOf(const Statistics& statistics, std::initializer_list<Stage> stages) 
 }
 
 /// Repetitions of one entry.
-void measureEntry(const Start& start, int steps, std::size_t repetitions, Entry& entry) {
+void measureEntry(const Start& start, int steps, std::size_t repetitions, ScalingEntry& entry) {
     std::vector<double> all, processor, response;
     const double share = 1e3 / (static_cast<double>(steps) * static_cast<double>(entry.bodies));
     for (std::size_t i = 0; i < repetitions; ++i) {
-        const Run run = measure(start, entry.threads, steps, entry);
+        const ScalingRun run = measure(start, entry.threads, steps, entry);
         all.push_back(share * run.times.wall_ms);
         processor.push_back(share * run.times.processor_ms);
         response.push_back(share * sumOf(run.total, {Stage::correction, Stage::resolution}));
@@ -142,11 +142,12 @@ Settings settingsOf(const Scene& scene, const Variant& variant, const ScalingOpt
 }
 
 /// Every phase of one heap.
-std::vector<Entry> measureHeap(const std::string& layout, std::int64_t bodies, const Variant& variant,
-                               const ScalingOptions& options, const std::function<void(const std::string&)>& progress) {
+std::vector<ScalingEntry> measureHeap(const std::string& layout, std::int64_t bodies, const Variant& variant,
+                                      const ScalingOptions& options,
+                                      const std::function<void(const std::string&)>& progress) {
     const Scene scene = scalingScene(layout, bodies);
     Heap heap(scene, settingsOf(scene, variant, options));
-    std::vector<Entry> entries;
+    std::vector<ScalingEntry> entries;
     for (const Phase& phase : phases) {
         const bool settled = &phase != &phases.front();
         if (settled && (bodies > most_settled || options.extent == Extent::quick)) break;
@@ -155,7 +156,7 @@ std::vector<Entry> measureHeap(const std::string& layout, std::int64_t bodies, c
         const Start start = heap.at(phase.begin, [&] { progress(fmt::format("{}/{}", series, bodies)); });
         for (const std::int64_t threads : options.threads) {
             progress(fmt::format("{}/{}", series, bodies));
-            Entry entry;
+            ScalingEntry entry;
             entry.series = fmt::format("{}/threads{}", series, threads);
             entry.name = fmt::format("{}/{}/threads{}", series, bodies, threads);
             entry.bodies = scene.bodies.size();
@@ -168,12 +169,12 @@ std::vector<Entry> measureHeap(const std::string& layout, std::int64_t bodies, c
 }
 
 /// The first entry of the same series: what the growth is measured from.
-const Entry& firstOf(const std::vector<Entry>& entries, const Entry& entry) {
+const ScalingEntry& firstOf(const std::vector<ScalingEntry>& entries, const ScalingEntry& entry) {
     return *std::find_if(entries.begin(), entries.end(),
-                         [&](const Entry& other) { return other.series == entry.series; });
+                         [&](const ScalingEntry& other) { return other.series == entry.series; });
 }
 
-Json jsonOf(const Entry& entry, const std::vector<Entry>& entries) {
+Json jsonOf(const ScalingEntry& entry, const std::vector<ScalingEntry>& entries) {
     return {{"name", entry.name},
             {"bodies", entry.bodies},
             {"threads", entry.threads},
@@ -187,14 +188,14 @@ Json jsonOf(const Entry& entry, const std::vector<Entry>& entries) {
             {"state_hash", fmt::format("{:016x}", entry.state_hash)}};
 }
 
-std::string tableOf(const std::vector<Entry>& entries) {
+std::string tableOf(const std::vector<ScalingEntry>& entries) {
     constexpr const char* head = "{:<46} {:>7} {:>9} {:>9} {:>9} {:>7} {:>9} {:>7}\n";
     std::string text =
         "µs per body and time step\n"
         "sleeping off; bodies that came to rest are held (rest_speed), but in rows nothing_held\n\n";
     text += fmt::format(fmt::runtime(head), "", "", "wall", "processor", "response,", "", "contacts", "bytes");
     text += fmt::format(fmt::runtime(head), "heap", "bodies", "us", "us", "wall us", "growth", "a body", "a body");
-    for (const Entry& entry : entries) {
+    for (const ScalingEntry& entry : entries) {
         text += fmt::format("{:<46} {:>7} {:>9.3f} {:>9.3f} {:>9.3f} {:>7.2f} {:>9.2f} {:>7.0f}\n", entry.name,
                             entry.bodies, entry.body_us, entry.processor_us, entry.response_us,
                             entry.processor_us / firstOf(entries, entry).processor_us, entry.contacts, entry.memory);
@@ -272,12 +273,12 @@ Outcome runScaling(const ScalingOptions& options) {
     for (const std::int64_t size : sizes) all_work += static_cast<double>(size);
     all_work *= static_cast<double>(variants.size() * layouts.size());
     double done = 0;
-    std::vector<Entry> entries;
+    std::vector<ScalingEntry> entries;
     for (const Variant& variant : variants) {
         for (const std::string& layout : layouts) {
             for (const std::int64_t size : sizes) {
                 const auto progress = [&](const std::string& what) { options.progress(done / all_work, what); };
-                for (Entry& entry : measureHeap(layout, size, variant, options, progress)) {
+                for (ScalingEntry& entry : measureHeap(layout, size, variant, options, progress)) {
                     entries.push_back(std::move(entry));
                 }
                 done += static_cast<double>(size);
@@ -288,7 +289,7 @@ Outcome runScaling(const ScalingOptions& options) {
     outcome.table = tableOf(entries);
     outcome.json = originOf("scaling", options.extent);
     outcome.json["entries"] = Json::array();
-    for (const Entry& entry : entries) outcome.json["entries"].push_back(jsonOf(entry, entries));
+    for (const ScalingEntry& entry : entries) outcome.json["entries"].push_back(jsonOf(entry, entries));
     return outcome;
 }
 

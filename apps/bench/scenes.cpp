@@ -10,7 +10,6 @@ namespace cairn::bench {
 
 namespace {
 
-constexpr double quick_seconds = 0.5;
 constexpr double pile_seconds = 10;
 constexpr std::string_view pile = "pile:";
 constexpr double still = 0.01;  ///< part of its largest kinetic energy below which a pile no longer falls

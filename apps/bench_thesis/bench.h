@@ -20,6 +20,7 @@ struct Position {
 
 /// A picture to draw.
 struct Picture {
+    std::filesystem::path recording;
     double time = 0;             ///< in the recording [s]
     std::vector<double> camera;  ///< position and the point looked at [m]; empty = everything is seen
     std::filesystem::path file;  ///< PNG
@@ -33,8 +34,7 @@ struct BenchOptions {
     std::optional<double> rating;  ///< PassMark single-thread rating of this processor
     std::function<void(const Position&)> progress = [](const Position&) {};
     std::function<bool()> interrupted = [] { return false; };
-    std::function<void(const RecordingReader&, const Picture&)> picture =
-        {};  ///< or throws IoError; none = no pictures
+    std::function<void(const Picture&)> picture = {};  ///< or throws IoError; none = no pictures
 };
 
 /// What came out.

@@ -43,7 +43,7 @@ Json Pictures::drawAll(const std::string& key, const std::vector<double>& camera
         if (!fs::exists(whole) || fs::last_write_time(whole) < fs::last_write_time(recording)) {
             options_.progress({1, fmt::format("picture of {} at {:.2f} s", key, time)});
             if (options_.interrupted()) throw Interrupted{};
-            options_.picture(reader, {time, camera, whole});
+            options_.picture({recording, time, camera, whole});
         }
         files.push_back({{"time", time}, {"file", file.string()}});
     }

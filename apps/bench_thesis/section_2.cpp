@@ -8,6 +8,7 @@
 
 namespace cairn::thesis {
 
+namespace section_2 {
 namespace {
 
 /// Steps that take less than this part of the longest one are left out of ratios.
@@ -114,8 +115,10 @@ void addScene(SectionResult& result, const Published& thesis, const Plan& plan, 
 }
 
 }  // namespace
+}  // namespace section_2
 
 Section parallelEfficiency(const Plan& plan) {
+    using namespace section_2;
     Section section{"5.2",
                     "Parallelization efficiency",
                     "The same scenes with one thread and with several. A group of touching bodies is one batch and one "

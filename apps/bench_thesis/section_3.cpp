@@ -9,6 +9,7 @@
 
 namespace cairn::thesis {
 
+namespace section_3 {
 namespace {
 
 constexpr double ratio_floor = 0.2;
@@ -120,8 +121,10 @@ Ratios addScene(SectionResult& result, const Published& thesis, const Plan& plan
 }
 
 }  // namespace
+}  // namespace section_3
 
 Section gravityDamping(const Plan& plan) {
+    using namespace section_3;
     Section section{"5.3",
                     "Velocity-dependent gravity damping",
                     "The three scenes with the damping of 70 % below 8.33 cm/s and without it, all else equal.",

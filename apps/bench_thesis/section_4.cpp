@@ -7,6 +7,7 @@
 
 namespace cairn::thesis {
 
+namespace section_4 {
 namespace {
 
 constexpr double ratio_floor = 0.05;
@@ -96,8 +97,10 @@ void addScene(SectionResult& result, const Published& thesis, const Plan& plan, 
 }
 
 }  // namespace
+}  // namespace section_4
 
 Section processingOrder(const Plan& plan) {
+    using namespace section_4;
     Section section{
         "5.4",
         "Contact processing order",

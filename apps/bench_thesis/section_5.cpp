@@ -8,6 +8,7 @@
 
 namespace cairn::thesis {
 
+namespace section_5 {
 namespace {
 
 constexpr double ratio_floor = 0.1;
@@ -73,8 +74,10 @@ void addScene(SectionResult& result, const Published& thesis, const Plan& plan, 
 }
 
 }  // namespace
+}  // namespace section_5
 
 Section physicalAccuracy(const Plan& plan) {
+    using namespace section_5;
     Section section{"5.5",
                     "Simulations with high physical accuracy",
                     "High accuracy settings: 960 time steps per second, unlimited iterations to 5.2 µm/s, no shock "

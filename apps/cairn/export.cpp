@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "cairn/recording.h"
+#include "cli/view_exports.h"
 #include "commands.h"
-#include "view_exports.h"
 
 namespace cairn::cli {
 
@@ -26,19 +26,21 @@ void refuseSameFile(const std::string& recording, const std::string& out) {
     }
 }
 
-void runExport(const ExportOptions& options) {
-    const RecordingReader recording(options.recording);
+int runExport(const ExportOptions& options) {
     for (const std::string& out : {options.csv, options.view.html, options.view.png, options.view.mp4}) {
         refuseSameFile(options.recording, out);
     }
-    if (!options.csv.empty()) exportCsv(recording, options.csv);
-    if (!options.vtk.empty()) exportVtk(recording, options.vtk);
-    writeViewExports(recording, options.view);
+    if (!options.csv.empty() || !options.vtk.empty()) {
+        const RecordingReader recording(options.recording);
+        if (!options.csv.empty()) exportCsv(recording, options.csv);
+        if (!options.vtk.empty()) exportVtk(recording, options.vtk);
+    }
+    return options.view.any() ? writeViewExports(options.recording, options.view) : fine;
 }
 
 }  // namespace
 
-void addExport(CLI::App& app, int&) {
+void addExport(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("export", "Turn a recording into tables, a page, a picture or a film");
     auto options = std::make_shared<ExportOptions>();
     command->add_option("RECORDING", options->recording, "A recording made by 'cairn run --record'")
@@ -50,7 +52,7 @@ void addExport(CLI::App& app, int&) {
                         "Write OUT.pvd, a time series for ParaView, and a folder OUT of .vtp files");
     addViewExports(*command, *formats, options->view);
     formats->require_option(1, 0);
-    command->callback([options] { runExport(*options); });
+    command->callback([options, &exit_code] { exit_code = runExport(*options); });
 }
 
 }  // namespace cairn::cli

@@ -6,9 +6,9 @@
 #include <memory>
 
 #include "cairn/recording.h"
+#include "cli/output.h"
+#include "cli/scene_argument.h"
 #include "commands.h"
-#include "output.h"
-#include "scene_argument.h"
 
 namespace cairn::cli {
 

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "cairn/recording.h"
+#include "cli/output.h"
 #include "commands.h"
-#include "output.h"
 
 namespace cairn::cli {
 

@@ -2,10 +2,10 @@
 #include <memory>
 #include <optional>
 
+#include "cli/override_options.h"
+#include "cli/scene_argument.h"
 #include "commands.h"
-#include "override_options.h"
 #include "runner.h"
-#include "scene_argument.h"
 
 namespace cairn::cli {
 

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "cli/interrupt.h"
+#include "cli/output.h"
 #include "commands.h"
-#include "interrupt.h"
-#include "output.h"
 
 namespace cairn::cli {
 

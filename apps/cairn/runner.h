@@ -8,8 +8,8 @@
 
 #include "cairn/recording.h"
 #include "checkpoint_option.h"
+#include "cli/progress.h"
 #include "measurements.h"
-#include "progress.h"
 #include "report.h"
 #include "stats_csv.h"
 

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "cairn/scene.h"
+#include "cli/output.h"
 #include "commands.h"
-#include "output.h"
 
 namespace cairn::cli {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cairn/settings.h"
+#include "cli/output.h"
 #include "commands.h"
-#include "output.h"
 
 namespace cairn::cli {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cairn/scene.h"
-#include "output.h"
+#include "cli/output.h"
 
 namespace cairn::cli {
 

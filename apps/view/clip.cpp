@@ -16,9 +16,9 @@ using nlohmann::json;
 namespace {
 
 constexpr std::uint32_t clip_version = 2;
-constexpr std::uint8_t flag_present = 1;
-constexpr std::uint8_t flag_asleep = 2;
-constexpr std::uint8_t flag_fixed = 4;
+constexpr std::uint8_t clip_present = 1;
+constexpr std::uint8_t clip_asleep = 2;
+constexpr std::uint8_t clip_fixed = 4;
 
 /// Larger numbers would not survive JavaScript's arithmetic; bodies so far away are not seen.
 constexpr double largest_whole = 1e14;
@@ -91,9 +91,9 @@ class ClipWriter {
         putOrientations(frame);
         for (DeltaStream* stream : {&positions_, &orientations_, &velocities_, &spins_}) stream->endRow();
         for (std::size_t body = 0; body < n; ++body) {
-            flags_.put(static_cast<std::uint8_t>((isPresent(frame, body) ? flag_present : 0) |
-                                                 (frame.asleep[body] != 0 ? flag_asleep : 0) |
-                                                 (scene_.bodies[body].fixed ? flag_fixed : 0)));
+            flags_.put(static_cast<std::uint8_t>((isPresent(frame, body) ? clip_present : 0) |
+                                                 (frame.asleep[body] != 0 ? clip_asleep : 0) |
+                                                 (scene_.bodies[body].fixed ? clip_fixed : 0)));
         }
         std::vector<double> values;
         appendSample({frame.time, frame.statistics, frame.kinetic_energy, frame.potential_energy}, values);

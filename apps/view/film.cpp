@@ -105,7 +105,7 @@ class PictureQueue {
     std::string failure_;
 };
 
-SharedMessage text(const json& object) {
+SharedMessage filmMessage(const json& object) {
     return std::make_shared<const Message>(Message{Message::Kind::text, object.dump()});
 }
 
@@ -134,7 +134,7 @@ void drawPictures(const RecordingReader& recording, const std::vector<double>& t
     Server server(serving);
     PictureQueue pictures;
     ServerEvents events;
-    const SharedMessage hello = text(filmHello(options, times, format));
+    const SharedMessage hello = filmMessage(filmHello(options, times, format));
     events.joined = [&](ClientId client) { server.toOne(client, hello); };
     events.left = [&](ClientId) { pictures.fail("Chromium closed the page before all pictures were drawn"); };
     events.binary = [&](ClientId, std::string_view bytes) { pictures.put(bytes); };
@@ -153,7 +153,7 @@ void drawPictures(const RecordingReader& recording, const std::vector<double>& t
             server.stop();
             throw IoError("stopped before all pictures were drawn");
         }
-        server.toAll(text({{"type", "next-picture"}}));
+        server.toAll(filmMessage({{"type", "next-picture"}}));
     }
     server.stop();
 }

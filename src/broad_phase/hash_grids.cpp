@@ -14,7 +14,7 @@ namespace {
 /// Blocks per work item. Items are dealt out in turn, which spreads dense regions over the workers.
 constexpr std::size_t blocks_per_item = 4;
 /// Below this many bodies one worker is faster than several.
-constexpr std::size_t serial_limit = 256;
+constexpr std::size_t serial_slots = 256;
 
 /// ⌊x · edge_inv⌋; std::floor is a function call on the baseline processor.
 std::int64_t cellCoordinate(double x, double edge_inv) {
@@ -61,7 +61,7 @@ void HashGrids::findPairs(const BroadPhaseInput& input, const Executor& executor
     numberCells();
     placeEntries(input);
 
-    const std::size_t workers = slots < serial_limit ? 1 : static_cast<std::size_t>(executor.threads());
+    const std::size_t workers = slots < serial_slots ? 1 : static_cast<std::size_t>(executor.threads());
     found_.resize(2 * workers);
     const auto search = [&](std::size_t worker, int) {
         const auto& blocks = table_.blocks();

@@ -14,7 +14,7 @@ namespace {
 /// Rows up to this length are sorted by insertion.
 constexpr std::ptrdiff_t short_row = 24;
 /// Below this many pairs waking other threads costs more than they save.
-constexpr std::size_t serial_limit = 32768;
+constexpr std::size_t serial_pairs = 32768;
 
 void sortRow(BodyPair* begin, BodyPair* end) {
     const auto byPartner = [](const BodyPair& p, const BodyPair& q) { return p.b < q.b; };
@@ -43,7 +43,7 @@ void PairRows::sort(std::span<const PairBuffer> parts, std::size_t slots, const 
     std::size_t total = 0;
     for (const PairBuffer& part : parts) total += part.pairs().size();
     const Executor alone;
-    const Executor& workers = total < serial_limit ? alone : executor;
+    const Executor& workers = total < serial_pairs ? alone : executor;
 
     count(parts, slots, workers);
     resizeTightly(pairs, placeRows(parts.size(), slots));

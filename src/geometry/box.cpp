@@ -32,12 +32,12 @@ Vec3 farthest(const Box& box, const Vec3& direction) {
             std::copysign(0.5 * box.size.z(), direction.z())};
 }
 
-constexpr ShapeEntry entry = finiteShapeEntry<Box, validate, massProperties, radius, bounds, farthest>("box");
+constexpr ShapeEntry box_entry = finiteShapeEntry<Box, validate, massProperties, radius, bounds, farthest>("box");
 
 }  // namespace
 
 const ShapeEntry& boxEntry() {
-    return entry;
+    return box_entry;
 }
 
 }  // namespace cairn

@@ -41,12 +41,13 @@ Vec3 farthest(const Capsule& capsule, const Vec3& direction) {
     return point;
 }
 
-constexpr ShapeEntry entry = finiteShapeEntry<Capsule, validate, massProperties, radius, bounds, farthest>("capsule");
+constexpr ShapeEntry capsule_entry =
+    finiteShapeEntry<Capsule, validate, massProperties, radius, bounds, farthest>("capsule");
 
 }  // namespace
 
 const ShapeEntry& capsuleEntry() {
-    return entry;
+    return capsule_entry;
 }
 
 }  // namespace cairn

@@ -93,7 +93,8 @@ Vec3 farthest(const Compound& compound, const Vec3& direction) {
     return best;
 }
 
-constexpr ShapeEntry entry = finiteShapeEntry<Compound, validate, massProperties, radius, bounds, farthest>("compound");
+constexpr ShapeEntry compound_entry =
+    finiteShapeEntry<Compound, validate, massProperties, radius, bounds, farthest>("compound");
 
 /// Centre of mass of a part in the frame of the compound. @param p whose quaternion may have any length
 Vec3 centreOf(const PartMass& p) {
@@ -123,7 +124,7 @@ UnitMassProperties combine(std::span<const PartMass> parts) {
 }
 
 const ShapeEntry& compoundEntry() {
-    return entry;
+    return compound_entry;
 }
 
 }  // namespace cairn

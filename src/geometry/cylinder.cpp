@@ -36,12 +36,13 @@ Vec3 farthest(const Cylinder& cylinder, const Vec3& direction) {
     return {across.x(), across.y(), std::copysign(0.5 * cylinder.length, direction.z())};
 }
 
-constexpr ShapeEntry entry = finiteShapeEntry<Cylinder, validate, massProperties, radius, bounds, farthest>("cylinder");
+constexpr ShapeEntry cylinder_entry =
+    finiteShapeEntry<Cylinder, validate, massProperties, radius, bounds, farthest>("cylinder");
 
 }  // namespace
 
 const ShapeEntry& cylinderEntry() {
-    return entry;
+    return cylinder_entry;
 }
 
 }  // namespace cairn

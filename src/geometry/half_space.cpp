@@ -49,12 +49,13 @@ Bounds bounds(const HalfSpace& half_space, const Pose& pose) {
     return result;
 }
 
-constexpr ShapeEntry entry = infiniteShapeEntry<HalfSpace, validate, massProperties, radius, bounds>("plane");
+constexpr ShapeEntry half_space_entry =
+    infiniteShapeEntry<HalfSpace, validate, massProperties, radius, bounds>("plane");
 
 }  // namespace
 
 const ShapeEntry& halfSpaceEntry() {
-    return entry;
+    return half_space_entry;
 }
 
 Vec3 unitNormal(const HalfSpace& half_space) {

@@ -40,7 +40,8 @@ Vec3 farthest(const ConvexHull& hull, const Vec3& direction) {
     return corners[best];
 }
 
-constexpr ShapeEntry entry = finiteShapeEntry<ConvexHull, validate, massProperties, radius, bounds, farthest>("hull");
+constexpr ShapeEntry hull_entry =
+    finiteShapeEntry<ConvexHull, validate, massProperties, radius, bounds, farthest>("hull");
 
 }  // namespace
 
@@ -56,7 +57,7 @@ std::span<const Vec3> ConvexHull::corners() const {
 }
 
 const ShapeEntry& hullEntry() {
-    return entry;
+    return hull_entry;
 }
 
 }  // namespace cairn

@@ -28,12 +28,13 @@ Vec3 farthest(const Sphere& sphere, const Vec3& direction) {
     return sphere.radius * direction.stableNormalized();
 }
 
-constexpr ShapeEntry entry = finiteShapeEntry<Sphere, validate, massProperties, radius, bounds, farthest>("sphere");
+constexpr ShapeEntry sphere_entry =
+    finiteShapeEntry<Sphere, validate, massProperties, radius, bounds, farthest>("sphere");
 
 }  // namespace
 
 const ShapeEntry& sphereEntry() {
-    return entry;
+    return sphere_entry;
 }
 
 }  // namespace cairn

@@ -14,10 +14,10 @@ namespace {
 /// Cosine of the angle below which a direction of contact counts as that of a face: the face then gives more points,
 /// and their heights are as honest. Round
 /// shapes have directions of their own between those of faces and edges.
-constexpr double aligned_cosine = 0.995;
+constexpr double aligned_direction = 0.995;
 
 /// Sine of the largest angle between two lines that lie on each other.
-constexpr double parallel_sine = 0.1;
+constexpr double parallel_tube_sine = 0.1;
 
 /// Planes around a disc that stand for its rim when a polygon is cut to it; they leave it 1 % too large at most.
 constexpr int disc_sides = 16;
@@ -37,7 +37,7 @@ struct Meeting {
 };
 
 /// Points halfway between the surfaces, with distances in place of heights.
-struct Found {
+struct ConvexContact {
     Vec3 normal;  ///< from A to B
     FacePoints points;
 };
@@ -141,7 +141,7 @@ void collectPoints(const OnFace& on, double margin, FacePoints& points) {
     Feature lying;
     on.other.findFeature(-on.face.face.normal, lying);
     const bool discs = on.face.disc_radius > 0 && lying.disc_radius > 0 &&
-                       lying.face.normal.dot(on.face.face.normal) < -aligned_cosine;
+                       lying.face.normal.dot(on.face.face.normal) < -aligned_direction;
     double merge = merge_part * edgeLength(on.face);
     if (lying.isFace()) merge = std::min(merge, merge_part * edgeLength(lying));
     const FaceCollector collector{on.face.face, margin + on.other.rounding(), discs ? 100 * merge : merge};
@@ -156,7 +156,7 @@ void collectPoints(const OnFace& on, double margin, FacePoints& points) {
 }
 
 /// @return false if the points on the face do not tell how far the shapes are apart: they are close beside it
-bool addOnFace(const Meeting& meeting, const OnFace& on, Found& found) {
+bool addOnFace(const Meeting& meeting, const OnFace& on, ConvexContact& found) {
     collectPoints(on, meeting.margin, found.points);
     const Vec3& normal = on.face.face.normal;
     const double limit = meeting.separation.distance + faceAxisBonus(meeting.separation.distance, meeting.smallest());
@@ -176,11 +176,11 @@ bool isAcceptable(const Meeting& meeting, const OnFace& on) {
     const double bonus = faceAxisBonus(on.separation, meeting.smallest());
     const bool straight = !meeting.a.isTube() && !meeting.b.isTube();
     return meeting.separation.distance <= on.separation + bonus ||
-           (straight && std::abs(meeting.separation.normal.dot(on.face.face.normal)) > aligned_cosine);
+           (straight && std::abs(meeting.separation.normal.dot(on.face.face.normal)) > aligned_direction);
 }
 
 /// Tries the faces of both shapes, those of A and polygons first.
-bool addFaceContact(const Meeting& meeting, Found& found) {
+bool addFaceContact(const Meeting& meeting, ConvexContact& found) {
     const auto along = [](const Feature& face, const Convex& other) {
         return face.isFace() ? face.face.height(other.support(-face.face.normal)) : 0;
     };
@@ -202,11 +202,11 @@ bool addFaceContact(const Meeting& meeting, Found& found) {
 }
 
 /// The sides of two tubes that lie beside each other touch at both ends of their common part.
-bool addTubes(const Meeting& meeting, Found& found) {
+bool addTubes(const Meeting& meeting, ConvexContact& found) {
     const Vec3 u = meeting.a.tubeAxis();
     const Vec3 other = meeting.b.tubeAxis();
     const double cosine = u.dot(other);
-    if (!(u.cross(other).norm() <= parallel_sine)) return false;
+    if (!(u.cross(other).norm() <= parallel_tube_sine)) return false;
     const double half_a = 0.5 * edgeLength(meeting.feature_a);
     const double half_b = 0.5 * edgeLength(meeting.feature_b);
     const Vec3 centres = meeting.b.centre() - meeting.a.centre();
@@ -234,7 +234,7 @@ bool addTubes(const Meeting& meeting, Found& found) {
     return true;
 }
 
-void addSingle(const Meeting& meeting, Found& found) {
+void addSingle(const Meeting& meeting, ConvexContact& found) {
     const Separation& s = meeting.separation;
     found.normal = s.normal;
     found.points.size = 1;
@@ -243,7 +243,7 @@ void addSingle(const Meeting& meeting, Found& found) {
     found.points.points[0] = {0.5 * (on_a + on_b), meeting.distance()};
 }
 
-void findPoints(const Meeting& meeting, Found& found) {
+void findPoints(const Meeting& meeting, ConvexContact& found) {
     const bool point = meeting.feature_a.corners.size == 1 || meeting.feature_b.corners.size == 1;
     if (!point && addFaceContact(meeting, found)) return;
     if (meeting.feature_a.isLine() && meeting.feature_b.isLine() && addTubes(meeting, found)) return;
@@ -257,7 +257,7 @@ void convexContact(const Convex& a, const Convex& b, const Vec3& origin, double 
     if (!separate(a, b, margin + meeting.rounding(), meeting.separation)) return;
     a.findFeature(meeting.separation.normal, meeting.feature_a);
     b.findFeature(-meeting.separation.normal, meeting.feature_b);
-    Found found;
+    ConvexContact found;
     findPoints(meeting, found);
     manifold.normal = -found.normal;
     for (std::size_t i = 0; i < found.points.size && i < Manifold::capacity; ++i) {

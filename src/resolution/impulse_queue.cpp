@@ -13,7 +13,7 @@ namespace cairn {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double never = std::numeric_limits<double>::infinity();
 
 bool rests(const LocalBody& body) {
     return body.v.isZero(0) && body.w.isZero(0);
@@ -34,7 +34,7 @@ void QueueSolver::begin(const BatchView& view, std::span<const Contact> contacts
     batch.gatherUnprepared(view, contacts, bodies);
     law_.begin(view, contacts, settings);
     rows.begin(batch);
-    delta_.assign(batch.contacts.size() + 1, infinity);
+    delta_.assign(batch.contacts.size() + 1, never);
 }
 
 RunOutcome QueueSolver::run(std::span<const std::uint32_t> members, double iterations_per_contact) {
@@ -70,7 +70,7 @@ RunOutcome QueueSolver::runWith(Queue& queue, std::span<const std::uint32_t> mem
         }
         outcome.iterations += resolve(queue, next);
     }
-    for (const std::uint32_t i : members) delta_[i] = infinity;
+    for (const std::uint32_t i : members) delta_[i] = never;
     return outcome;
 }
 
@@ -145,7 +145,7 @@ std::int64_t QueueSolver::resolve(Queue& queue, std::uint32_t contact) {
     const bool usable = std::isfinite(velocity[0]) && isResolvable(frame);
     if (!(velocity[0] < threshold_) || !usable) {
         // What is not finite is never touched again, so that it cannot spread.
-        delta_[contact] = usable ? velocity[0] : infinity;
+        delta_[contact] = usable ? velocity[0] : never;
         queue.contactOpened(contact);
         return 0;
     }

@@ -6,7 +6,7 @@ namespace cairn {
 
 namespace {
 
-constexpr std::uint32_t none = UINT32_MAX;
+constexpr std::uint32_t not_in_batch = UINT32_MAX;
 
 LocalBody copyOf(BodyIndex slot, const BodyState& state) {
     LocalBody body;
@@ -22,7 +22,7 @@ LocalBody copyOf(BodyIndex slot, const BodyState& state) {
 
 std::uint32_t LocalBatch::localIndex(BodyIndex slot, const BodyState& state) {
     std::uint32_t& local = local_of_slot_[slot];
-    if (local == none) {
+    if (local == not_in_batch) {
         local = static_cast<std::uint32_t>(bodies.size());
         bodies.push_back(copyOf(slot, state));
     }
@@ -30,7 +30,7 @@ std::uint32_t LocalBatch::localIndex(BodyIndex slot, const BodyState& state) {
 }
 
 void LocalBatch::gatherBodies(const BatchView& batch, std::span<const Contact> all_contacts, const BodyState& state) {
-    if (local_of_slot_.size() < state.size()) local_of_slot_.resize(state.size(), none);
+    if (local_of_slot_.size() < state.size()) local_of_slot_.resize(state.size(), not_in_batch);
     bodies.clear();
     for (const BodyIndex slot : batch.bodies) localIndex(slot, state);
     dynamic_bodies = bodies.size();
@@ -41,7 +41,7 @@ void LocalBatch::gatherBodies(const BatchView& batch, std::span<const Contact> a
         ends[i].a = localIndex(contact.a, state);
         ends[i].b = localIndex(contact.b, state);
     }
-    for (const LocalBody& body : bodies) local_of_slot_[body.slot] = none;
+    for (const LocalBody& body : bodies) local_of_slot_[body.slot] = not_in_batch;
     // Bodies that sleep on may be left out of a batch.
     for (std::size_t i = dynamic_bodies; i < bodies.size(); ++i) {
         bodies[i].mass_inv = 0;

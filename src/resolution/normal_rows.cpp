@@ -59,20 +59,20 @@ void NormalRows::pack(std::uint32_t body) {
 
 void NormalRows::update(std::uint32_t body, double v_x, double v_y, double v_z, double w_x, double w_y, double w_z,
                         double* delta) const {
-    using Lanes = NormalRowPair::Lanes;
-    const Lanes vx = Lanes::Constant(v_x), wx = Lanes::Constant(w_x);
-    const Lanes vy = Lanes::Constant(v_y), wy = Lanes::Constant(w_y);
-    const Lanes vz = Lanes::Constant(v_z), wz = Lanes::Constant(w_z);
-    const Lanes infinity = Lanes::Constant(std::numeric_limits<double>::infinity());
+    using Pair = NormalRowPair::Lanes;
+    const Pair vx = Pair::Constant(v_x), wx = Pair::Constant(w_x);
+    const Pair vy = Pair::Constant(v_y), wy = Pair::Constant(w_y);
+    const Pair vz = Pair::Constant(v_z), wz = Pair::Constant(w_z);
+    const Pair infinity = Pair::Constant(std::numeric_limits<double>::infinity());
     const std::uint32_t* contact = lists_.contact.data() + lists_.begin[body];
     const NormalRowPair* pair = pair_.data() + lists_.begin[body] / 2;
     for (const std::uint32_t* end = contact + lists_.count[body]; contact < end; contact += 2, ++pair) {
         double& first = delta[contact[0]];
         double& second = delta[contact[1]];
-        const Lanes sum = Lanes(first, second) + ((pair->linear_x * vx + pair->linear_y * vy + pair->linear_z * vz) +
-                                                  (pair->angular_x * wx + pair->angular_y * wy + pair->angular_z * wz));
+        const Pair sum = Pair(first, second) + ((pair->linear_x * vx + pair->linear_y * vy + pair->linear_z * vz) +
+                                                (pair->angular_x * wx + pair->angular_y * wy + pair->angular_z * wz));
         // In this order, as with std::min, a NaN fails the comparison.
-        const Lanes finite = infinity.min(sum);
+        const Pair finite = infinity.min(sum);
         first = finite[0];
         second = finite[1];
     }

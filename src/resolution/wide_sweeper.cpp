@@ -10,7 +10,7 @@ namespace cairn {
 
 namespace {
 
-constexpr std::uint32_t none = UINT32_MAX;
+constexpr std::uint32_t empty_lane = UINT32_MAX;
 
 /// Pairs with more contacts are put together as if they had so many.
 constexpr std::size_t most_alike = 16;
@@ -187,7 +187,7 @@ void WideSweeper::addGroup(std::span<const Pair> pairs, const LocalBatch& local)
     std::size_t length = 0;
     for (const Pair& pair : pairs) length = std::max(length, pair.size);
     group.end = group.begin + static_cast<std::uint32_t>(length);
-    contact_of_.resize(contact_of_.size() + length * lane_count, none);
+    contact_of_.resize(contact_of_.size() + length * lane_count, empty_lane);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
         const Pair& pair = pairs[lane < pairs.size() ? lane : 0];
         const ContactEnds& ends = local.ends[order[pair.begin]];
@@ -213,12 +213,12 @@ void WideSweeper::addGroup(std::span<const Pair> pairs, const LocalBatch& local)
         for (std::size_t lane = 0; lane < lane_count; ++lane) {
             const std::uint32_t index = contact_of_[i * lane_count + lane];
             // An empty lane repeats the group's first contact, which can be computed with.
-            const std::uint32_t source = index == none ? contact_of_[group.begin * lane_count] : index;
+            const std::uint32_t source = index == empty_lane ? contact_of_[group.begin * lane_count] : index;
             const Contact& contact = swept.contacts[swept.batch.contacts[source]];
             setLane(wide.normal, lane, contact.normal);
             setLane(wide.r_a, lane, contact.point - swept.bodies.position[contact.a]);
             setLane(wide.r_b, lane, contact.point - swept.bodies.position[contact.b]);
-            setLane(wide.impulse, lane, index == none ? Vec3(Vec3::Zero()) : contact.last_impulse);
+            setLane(wide.impulse, lane, index == empty_lane ? Vec3(Vec3::Zero()) : contact.last_impulse);
             wide.friction[lane] = contact.static_friction;
         }
         WideContact::Symmetric k;
@@ -229,7 +229,7 @@ void WideSweeper::addGroup(std::span<const Pair> pairs, const LocalBatch& local)
         const bool regular = isRegular(wide);
         for (std::size_t lane = 0; lane < lane_count; ++lane) {
             const std::uint32_t index = contact_of_[i * lane_count + lane];
-            if (index == none) {
+            if (index == empty_lane) {
                 setMasses(wide, lane, SweptContact{});
                 continue;
             }

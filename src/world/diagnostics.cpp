@@ -24,41 +24,40 @@ double& component(Diagnostics& d) {
     return (d.*Member)[Axis];
 }
 
-using D = Diagnostics;
-constexpr std::array<DiagnosticsField, 33> fields = {{
-    {"momentum_x", "N·s", Fold::newest, component<&D::momentum, 0>},
-    {"momentum_y", "N·s", Fold::newest, component<&D::momentum, 1>},
-    {"momentum_z", "N·s", Fold::newest, component<&D::momentum, 2>},
-    {"angular_momentum_x", "N·m·s", Fold::newest, component<&D::angular_momentum, 0>},
-    {"angular_momentum_y", "N·m·s", Fold::newest, component<&D::angular_momentum, 1>},
-    {"angular_momentum_z", "N·m·s", Fold::newest, component<&D::angular_momentum, 2>},
-    {"fixed_impulse_x", "N·s", Fold::sum, component<&D::fixed_impulse, 0>},
-    {"fixed_impulse_y", "N·s", Fold::sum, component<&D::fixed_impulse, 1>},
-    {"fixed_impulse_z", "N·s", Fold::sum, component<&D::fixed_impulse, 2>},
-    {"fixed_angular_impulse_x", "N·m·s", Fold::sum, component<&D::fixed_angular_impulse, 0>},
-    {"fixed_angular_impulse_y", "N·m·s", Fold::sum, component<&D::fixed_angular_impulse, 1>},
-    {"fixed_angular_impulse_z", "N·m·s", Fold::sum, component<&D::fixed_angular_impulse, 2>},
-    {"force_impulse_x", "N·s", Fold::sum, component<&D::force_impulse, 0>},
-    {"force_impulse_y", "N·s", Fold::sum, component<&D::force_impulse, 1>},
-    {"force_impulse_z", "N·s", Fold::sum, component<&D::force_impulse, 2>},
-    {"force_angular_impulse_x", "N·m·s", Fold::sum, component<&D::force_angular_impulse, 0>},
-    {"force_angular_impulse_y", "N·m·s", Fold::sum, component<&D::force_angular_impulse, 1>},
-    {"force_angular_impulse_z", "N·m·s", Fold::sum, component<&D::force_angular_impulse, 2>},
-    {"momentum_error", "N·s", Fold::largest, scalar<&D::momentum_error>},
-    {"angular_momentum_error", "N·m·s", Fold::largest, scalar<&D::angular_momentum_error>},
-    {"energy", "J", Fold::newest, scalar<&D::energy>},
-    {"energy_flight", "J", Fold::sum, scalar<&D::energy_flight>},
-    {"energy_forces", "J", Fold::sum, scalar<&D::energy_forces>},
-    {"energy_damping", "J", Fold::sum, scalar<&D::energy_damping>},
-    {"energy_friction", "J", Fold::sum, scalar<&D::energy_friction>},
-    {"energy_restitution", "J", Fold::sum, scalar<&D::energy_restitution>},
-    {"energy_joints", "J", Fold::sum, scalar<&D::energy_joints>},
-    {"energy_correction", "J", Fold::sum, scalar<&D::energy_correction>},
-    {"energy_sleep", "J", Fold::sum, scalar<&D::energy_sleep>},
-    {"energy_error", "J", Fold::sum, scalar<&D::energy_error>},
-    {"signorini", "J", Fold::largest, scalar<&D::signorini>},
-    {"de_saxce", "J", Fold::largest, scalar<&D::de_saxce>},
-    {"dissipation", "J", Fold::largest, scalar<&D::dissipation>},
+constexpr std::array<DiagnosticsField, 33> diagnostics_fields = {{
+    {"momentum_x", "N·s", Fold::newest, component<&Diagnostics::momentum, 0>},
+    {"momentum_y", "N·s", Fold::newest, component<&Diagnostics::momentum, 1>},
+    {"momentum_z", "N·s", Fold::newest, component<&Diagnostics::momentum, 2>},
+    {"angular_momentum_x", "N·m·s", Fold::newest, component<&Diagnostics::angular_momentum, 0>},
+    {"angular_momentum_y", "N·m·s", Fold::newest, component<&Diagnostics::angular_momentum, 1>},
+    {"angular_momentum_z", "N·m·s", Fold::newest, component<&Diagnostics::angular_momentum, 2>},
+    {"fixed_impulse_x", "N·s", Fold::sum, component<&Diagnostics::fixed_impulse, 0>},
+    {"fixed_impulse_y", "N·s", Fold::sum, component<&Diagnostics::fixed_impulse, 1>},
+    {"fixed_impulse_z", "N·s", Fold::sum, component<&Diagnostics::fixed_impulse, 2>},
+    {"fixed_angular_impulse_x", "N·m·s", Fold::sum, component<&Diagnostics::fixed_angular_impulse, 0>},
+    {"fixed_angular_impulse_y", "N·m·s", Fold::sum, component<&Diagnostics::fixed_angular_impulse, 1>},
+    {"fixed_angular_impulse_z", "N·m·s", Fold::sum, component<&Diagnostics::fixed_angular_impulse, 2>},
+    {"force_impulse_x", "N·s", Fold::sum, component<&Diagnostics::force_impulse, 0>},
+    {"force_impulse_y", "N·s", Fold::sum, component<&Diagnostics::force_impulse, 1>},
+    {"force_impulse_z", "N·s", Fold::sum, component<&Diagnostics::force_impulse, 2>},
+    {"force_angular_impulse_x", "N·m·s", Fold::sum, component<&Diagnostics::force_angular_impulse, 0>},
+    {"force_angular_impulse_y", "N·m·s", Fold::sum, component<&Diagnostics::force_angular_impulse, 1>},
+    {"force_angular_impulse_z", "N·m·s", Fold::sum, component<&Diagnostics::force_angular_impulse, 2>},
+    {"momentum_error", "N·s", Fold::largest, scalar<&Diagnostics::momentum_error>},
+    {"angular_momentum_error", "N·m·s", Fold::largest, scalar<&Diagnostics::angular_momentum_error>},
+    {"energy", "J", Fold::newest, scalar<&Diagnostics::energy>},
+    {"energy_flight", "J", Fold::sum, scalar<&Diagnostics::energy_flight>},
+    {"energy_forces", "J", Fold::sum, scalar<&Diagnostics::energy_forces>},
+    {"energy_damping", "J", Fold::sum, scalar<&Diagnostics::energy_damping>},
+    {"energy_friction", "J", Fold::sum, scalar<&Diagnostics::energy_friction>},
+    {"energy_restitution", "J", Fold::sum, scalar<&Diagnostics::energy_restitution>},
+    {"energy_joints", "J", Fold::sum, scalar<&Diagnostics::energy_joints>},
+    {"energy_correction", "J", Fold::sum, scalar<&Diagnostics::energy_correction>},
+    {"energy_sleep", "J", Fold::sum, scalar<&Diagnostics::energy_sleep>},
+    {"energy_error", "J", Fold::sum, scalar<&Diagnostics::energy_error>},
+    {"signorini", "J", Fold::largest, scalar<&Diagnostics::signorini>},
+    {"de_saxce", "J", Fold::largest, scalar<&Diagnostics::de_saxce>},
+    {"dissipation", "J", Fold::largest, scalar<&Diagnostics::dissipation>},
 }};
 
 Vec3 accelerationOf(const WorldState& world) {
@@ -186,7 +185,7 @@ void finish(WorldState& world, const StepTotals& now) {
 }  // namespace
 
 std::span<const DiagnosticsField> diagnosticsFields() {
-    return fields;
+    return diagnostics_fields;
 }
 
 void measure(WorldState& world, Measured point) {

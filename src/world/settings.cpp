@@ -81,7 +81,7 @@ SettingField stepsPerSecond() {
             [](Settings& s, const SettingValue& value) { s.steps_per_second = std::get<double>(value); }};
 }
 
-const std::vector<SettingField>& fields() {
+const std::vector<SettingField>& settingTable() {
     using S = Settings;
     using D = DetectionSettings;
     using C = CorrectionSettings;
@@ -194,11 +194,11 @@ const std::vector<SettingField>& fields() {
 }
 
 const SettingField& findField(std::string_view name) {
-    for (const SettingField& field : fields()) {
+    for (const SettingField& field : settingTable()) {
         if (field.name == name) return field;
     }
     std::vector<std::string_view> names;
-    for (const SettingField& field : fields()) names.push_back(field.name);
+    for (const SettingField& field : settingTable()) names.push_back(field.name);
     throw InputError(fmt::format("unknown setting '{}'; the settings are {}", name, fmt::join(names, ", ")));
 }
 
@@ -330,7 +330,7 @@ Settings Settings::preset(Preset preset, double steps_per_second, double gravity
 }
 
 std::span<const SettingField> settingFields() {
-    return fields();
+    return settingTable();
 }
 
 void setField(Settings& settings, std::string_view name, const SettingValue& value) {
@@ -358,7 +358,7 @@ SettingValue getField(const Settings& settings, std::string_view name) {
 }
 
 void validate(const Settings& settings, const Vec3& gravity) {
-    for (const SettingField& field : fields()) {
+    for (const SettingField& field : settingTable()) {
         static_cast<void>(converted(field, field.get(settings)));
     }
     const double magnitude = gravity.stableNorm();

@@ -233,7 +233,8 @@ TEST_F(ThesisFolder, DrawsPicturesOnceAndSaysWhyTheyAreMissing) {
     options.only = {"5.6"};
     options.extent = Extent::quick;
     int drawn = 0;
-    options.picture = [&](const RecordingReader& recording, const Picture& picture) {
+    options.picture = [&](const Picture& picture) {
+        const RecordingReader recording(picture.recording);
         EXPECT_GT(recording.info().bodies, 0U);
         EXPECT_EQ(picture.camera.size(), 6U);
         std::ofstream(picture.file) << "PNG";
@@ -245,7 +246,7 @@ TEST_F(ThesisFolder, DrawsPicturesOnceAndSaysWhyTheyAreMissing) {
     EXPECT_EQ(drawn, 6);
 
     fs::remove_all(folder / "pictures");
-    options.picture = [](const RecordingReader&, const Picture&) { throw IoError("no browser"); };
+    options.picture = [](const Picture&) { throw IoError("no browser"); };
     const BenchOutcome outcome = runBench(options);
     ASSERT_EQ(outcome.warnings.size(), 1U);
     EXPECT_NE(outcome.warnings.front().find("no browser"), std::string::npos);

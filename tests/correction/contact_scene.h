@@ -9,6 +9,9 @@
 
 namespace cairn::test {
 
+inline const Vec3 right = Vec3::UnitX();
+inline const Vec3 up = Vec3::UnitZ();
+
 /// A small world of contacts. Bodies get the slots 0, 1, 2, … in the order in which they are added.
 struct ContactScene : BodyStorage {
     std::vector<Contact> contacts;
@@ -80,8 +83,8 @@ struct ContactScene : BodyStorage {
     double remaining() const { return -settings.remaining_penetration * settings.penetration_threshold; }
 };
 
-inline bool near(const Vec3& left, const Vec3& right, double tolerance = 1e-12) {
-    return (left - right).cwiseAbs().maxCoeff() <= tolerance;
+inline bool near(const Vec3& a, const Vec3& b, double tolerance = 1e-12) {
+    return (a - b).cwiseAbs().maxCoeff() <= tolerance;
 }
 
 }  // namespace cairn::test

@@ -12,9 +12,6 @@
 namespace cairn::test {
 namespace {
 
-const Vec3 right = Vec3::UnitX();
-const Vec3 up = Vec3::UnitZ();
-
 TEST(PropagatedCorrection, LeavesContactsDownToTheThreshold) {
     ContactScene scene;
     scene.settings.penetration_threshold = 0.125;

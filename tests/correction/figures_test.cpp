@@ -7,9 +7,6 @@
 namespace cairn::test {
 namespace {
 
-const Vec3 right = Vec3::UnitX();
-const Vec3 up = Vec3::UnitZ();
-
 /// Penetrating below −1/16, corrected to −1/32: powers of two, so that sums in the tests are exact.
 struct Figure : ContactScene {
     Figure() {
@@ -174,10 +171,10 @@ TEST(Figure8b, BodiesThatPushEachOtherThroughAThirdStay) {
 }
 
 /// Spheres in a row, each touching the next; the two in the middle overlap.
-struct Row : Figure {
+struct RowOfBoxes : Figure {
     std::vector<BodyIndex> spheres;
 
-    Row(int left_of_overlap, int right_of_overlap) {
+    RowOfBoxes(int left_of_overlap, int right_of_overlap) {
         for (int i = 0; i < left_of_overlap + right_of_overlap; ++i) {
             spheres.push_back(addBody());
             if (i > 0) touch(spheres[i], spheres[i - 1], right, i == left_of_overlap ? -1.0 / 8 : Figure::touching);
@@ -186,12 +183,12 @@ struct Row : Figure {
 };
 
 TEST(Figure9a, TheSideWithFewerBodiesMoves) {
-    Row row(3, 4);
+    RowOfBoxes row(3, 4);
     expectCounts(row.correct(), 1, 1, 3);
     for (int i = 0; i < 7; ++i) {
         EXPECT_EQ(row.moved(row.spheres[i]), i < 3 ? Vec3(-3.0 / 32, 0, 0) : Vec3(Vec3::Zero()));
     }
-    Row mirrored(4, 3);
+    RowOfBoxes mirrored(4, 3);
     expectCounts(mirrored.correct(), 1, 1, 3);
     for (int i = 0; i < 7; ++i) {
         EXPECT_EQ(mirrored.moved(mirrored.spheres[i]), i < 4 ? Vec3(Vec3::Zero()) : Vec3(3.0 / 32, 0, 0));
@@ -199,7 +196,7 @@ TEST(Figure9a, TheSideWithFewerBodiesMoves) {
 }
 
 TEST(Figure9a, FewerBodiesAreBetterThanTheStepBackOfTheFasterBody) {
-    Row row(3, 2);
+    RowOfBoxes row(3, 2);
     row.moveBy(row.spheres[2], {1, 0, 1});
     expectCounts(row.correct(), 1, 1, 2);
     EXPECT_EQ(row.moved(row.spheres[3]), Vec3(3.0 / 32, 0, 0));

@@ -68,7 +68,7 @@ const std::vector<Shape>& solids() {
     return shapes;
 }
 
-std::string messageOf(const Shape& shape) {
+std::string refusalOf(const Shape& shape) {
     try {
         validateShape(shape);
     } catch (const InputError& error) {
@@ -205,28 +205,28 @@ TEST(Geometry, BoundsOverlapIncludesTouching) {
 }
 
 TEST(Geometry, GoodShapesAreAccepted) {
-    for (const Shape& shape : solids()) EXPECT_EQ(messageOf(shape), "");
-    EXPECT_EQ(messageOf(Sphere{smallest_dimension}), "");
-    EXPECT_EQ(messageOf(Sphere{largest_dimension}), "");
-    EXPECT_EQ(messageOf(HalfSpace{{0, 0, 1}, -1e6}), "");
+    for (const Shape& shape : solids()) EXPECT_EQ(refusalOf(shape), "");
+    EXPECT_EQ(refusalOf(Sphere{smallest_dimension}), "");
+    EXPECT_EQ(refusalOf(Sphere{largest_dimension}), "");
+    EXPECT_EQ(refusalOf(HalfSpace{{0, 0, 1}, -1e6}), "");
 }
 
 TEST(Geometry, BadDimensionsAreRefusedByName) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double bad : {0.0, -1.0, nan, infinity, -infinity, 1e-300, 1e300}) {
-        EXPECT_NE(messageOf(Sphere{bad}).find("radius of a sphere"), std::string::npos) << bad;
-        EXPECT_NE(messageOf(Box{{1, bad, 1}}).find("size y of a box"), std::string::npos) << bad;
-        EXPECT_NE(messageOf(Capsule{bad, 1}).find("radius of a capsule"), std::string::npos) << bad;
-        EXPECT_NE(messageOf(Capsule{1, bad}).find("length of a capsule"), std::string::npos) << bad;
-        EXPECT_NE(messageOf(Cylinder{bad, 1}).find("radius of a cylinder"), std::string::npos) << bad;
-        EXPECT_NE(messageOf(Cylinder{1, bad}).find("length of a cylinder"), std::string::npos) << bad;
+        EXPECT_NE(refusalOf(Sphere{bad}).find("radius of a sphere"), std::string::npos) << bad;
+        EXPECT_NE(refusalOf(Box{{1, bad, 1}}).find("size y of a box"), std::string::npos) << bad;
+        EXPECT_NE(refusalOf(Capsule{bad, 1}).find("radius of a capsule"), std::string::npos) << bad;
+        EXPECT_NE(refusalOf(Capsule{1, bad}).find("length of a capsule"), std::string::npos) << bad;
+        EXPECT_NE(refusalOf(Cylinder{bad, 1}).find("radius of a cylinder"), std::string::npos) << bad;
+        EXPECT_NE(refusalOf(Cylinder{1, bad}).find("length of a cylinder"), std::string::npos) << bad;
     }
-    EXPECT_NE(messageOf(Sphere{-0.25}).find("-0.25"), std::string::npos) << "the text shows the value";
-    EXPECT_NE(messageOf(HalfSpace{Vec3::Zero(), 0}).find("normal of a plane"), std::string::npos);
-    EXPECT_NE(messageOf(HalfSpace{{0, nan, 1}, 0}).find("normal of a plane"), std::string::npos);
-    EXPECT_NE(messageOf(HalfSpace{{0, infinity, 1}, 0}).find("normal of a plane"), std::string::npos);
+    EXPECT_NE(refusalOf(Sphere{-0.25}).find("-0.25"), std::string::npos) << "the text shows the value";
+    EXPECT_NE(refusalOf(HalfSpace{Vec3::Zero(), 0}).find("normal of a plane"), std::string::npos);
+    EXPECT_NE(refusalOf(HalfSpace{{0, nan, 1}, 0}).find("normal of a plane"), std::string::npos);
+    EXPECT_NE(refusalOf(HalfSpace{{0, infinity, 1}, 0}).find("normal of a plane"), std::string::npos);
     for (const double bad : {nan, infinity, -infinity}) {
-        EXPECT_NE(messageOf(HalfSpace{{0, 0, 1}, bad}).find("offset of a plane"), std::string::npos) << bad;
+        EXPECT_NE(refusalOf(HalfSpace{{0, 0, 1}, bad}).find("offset of a plane"), std::string::npos) << bad;
     }
 }
 

@@ -4,7 +4,7 @@ namespace cairn::golden {
 namespace {
 
 constexpr double ball_radius = 0.05;
-constexpr double box_size = 0.2;
+constexpr double block_size = 0.2;
 constexpr double slab_height = 0.2;
 
 /// Of iron, so heavy that what lies on it hardly moves it; its upper face is at slab_height.
@@ -59,7 +59,7 @@ Scene crowdedSlab(std::string name, int columns, int balls) {
             scene.bodies.push_back(body);
             height += size;
         };
-        put(Box{Vec3::Constant(box_size)}, box_size, 0);
+        put(Box{Vec3::Constant(block_size)}, block_size, 0);
         put(Box{Vec3::Constant(small_size)}, small_size, 3 * scatter(n + 2));
         put(Sphere{ball_radius}, 2 * ball_radius, 3 * scatter(n + 3));
     }
@@ -94,7 +94,7 @@ Scene partlyAsleep(std::string name, int asleep) {
         const Vec3 place = grid.at(i);
         if (i < asleep - 1) {
             scene.bodies.push_back(
-                bodyOf(Box{Vec3::Constant(box_size)}, place + Vec3(0, 0, slab_height + box_size / 2)));
+                bodyOf(Box{Vec3::Constant(block_size)}, place + Vec3(0, 0, slab_height + block_size / 2)));
         } else {
             scene.bodies.push_back(ballOnSlab(place.x(), place.y(), 0.2, 1));
         }
@@ -105,13 +105,13 @@ Scene partlyAsleep(std::string name, int asleep) {
 
 Scene pyramid() {
     constexpr int rows = 5;
-    constexpr double spacing = 1.1 * box_size;
+    constexpr double spacing = 1.1 * block_size;
     Scene scene = groundScene("pyramid");
     for (int row = 0; row < rows; ++row) {
         const Grid grid{rows - row, spacing};
         for (int i = 0; i < grid.side * grid.side; ++i) {
-            const Vec3 place = grid.at(i) + Vec3(0, 0, (row + 0.5) * box_size);
-            scene.bodies.push_back(bodyOf(Box{Vec3::Constant(box_size)}, place));
+            const Vec3 place = grid.at(i) + Vec3(0, 0, (row + 0.5) * block_size);
+            scene.bodies.push_back(bodyOf(Box{Vec3::Constant(block_size)}, place));
         }
     }
     SceneBody ball = bodyOf(Sphere{0.15}, {-1, 0.03, 0.45});

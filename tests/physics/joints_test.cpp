@@ -9,7 +9,7 @@
 namespace cairn {
 namespace {
 
-constexpr double g = 9.81;
+constexpr double earth_gravity = 9.81;
 
 Settings precise(ResolutionKind resolution = ResolutionKind::impulse_queue) {
     Settings settings = Settings::preset(Preset::accuracy);
@@ -24,7 +24,8 @@ struct Workshop {
     World world;
     MaterialId steel = world.addMaterial({"steel", 7800});
 
-    explicit Workshop(const Vec3& gravity = Vec3(0, 0, -g), const Settings& settings = precise()) : world(settings) {
+    explicit Workshop(const Vec3& gravity = Vec3(0, 0, -earth_gravity), const Settings& settings = precise())
+        : world(settings) {
         world.setDefaultPairProperties({1, 0, 0});
         world.setGravity(gravity);
     }
@@ -54,7 +55,7 @@ double period(double length, double amplitude) {
         b = std::sqrt(a * b);
         a = mean;
     }
-    return 2 * std::numbers::pi * std::sqrt(length / g) / a;
+    return 2 * std::numbers::pi * std::sqrt(length / earth_gravity) / a;
 }
 
 /// Moments at which a value goes through zero upwards, between steps by interpolation.
@@ -82,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Joints, EveryResolution,
                                            ResolutionKind::accelerated_sweeps));
 
 TEST_P(EveryResolution, ABallOnARodSwingsWithThePeriodOfAPendulum) {
-    Workshop w(Vec3(0, 0, -g), precise(GetParam()));
+    Workshop w(Vec3(0, 0, -earth_gravity), precise(GetParam()));
     const double amplitude = 1;
     const Vec3 place(std::sin(amplitude), 0, -std::cos(amplitude));
     const BodyId ball = w.add(Sphere{1e-3}, 2, place);
@@ -96,24 +97,24 @@ TEST_P(EveryResolution, ABallOnARodSwingsWithThePeriodOfAPendulum) {
     });
     EXPECT_NEAR(found, period(1, amplitude), 2e-6 * found);
     EXPECT_LE(largest, 1e-9);
-    EXPECT_NEAR(w.energy(), before, 1e-5 * 2 * g);
+    EXPECT_NEAR(w.energy(), before, 1e-5 * 2 * earth_gravity);
 }
 
 TEST_P(EveryResolution, ARodOnAHingeSwingsAsACompoundPendulum) {
-    Workshop w(Vec3(0, 0, -g), precise(GetParam()));
+    Workshop w(Vec3(0, 0, -earth_gravity), precise(GetParam()));
     const Box rod{{0.02, 0.02, 1}};
     const BodyId body = w.add(rod, 1, Vec3(0, 0, -0.5), Vec3(0.15, 0, 0), Vec3(0, -0.3, 0));
     const JointId hinge = w.world.addJoint({.kind = JointKind::hinge, .a = body, .axis = Vec3::UnitY()});
     // About its end: I = m·l²/4 + m·(l² + d²)/12, reduced length I/(m·l/2).
     const double inertia = 0.25 + (1 + 0.02 * 0.02) / 12;
-    const double amplitude = 2 * std::asin(0.3 * std::sqrt(inertia / (2 * g)));
+    const double amplitude = 2 * std::asin(0.3 * std::sqrt(inertia / (2 * earth_gravity)));
     const double found = measuredPeriod(w.world, 10, [&] { return w.world.joint(hinge).position; });
     EXPECT_NEAR(found, period(inertia / 0.5, amplitude), 1e-5 * found);
     EXPECT_LE(w.world.joint(hinge).error, 1e-9);
 }
 
 TEST_P(EveryResolution, AHangingChainPullsWithItsWeight) {
-    Workshop w(Vec3(0, 0, -g), precise(GetParam()));
+    Workshop w(Vec3(0, 0, -earth_gravity), precise(GetParam()));
     std::vector<JointId> joints;
     std::optional<BodyId> above;
     for (int i = 0; i < 20; ++i) {
@@ -125,23 +126,23 @@ TEST_P(EveryResolution, AHangingChainPullsWithItsWeight) {
     w.run(0.5);
     for (int i = 0; i < 20; ++i) {
         const JointInfo joint = w.world.joint(joints[static_cast<std::size_t>(i)]);
-        const double weight = (100 + 19 - i) * g;
+        const double weight = (100 + 19 - i) * earth_gravity;
         EXPECT_NEAR(joint.force.z(), weight, 1e-9 * weight) << i;
         EXPECT_LE(joint.error, 1e-11);
     }
 }
 
 TEST_P(EveryResolution, AFixedJointPassesForceAndTorque) {
-    Workshop w(Vec3(0, 0, -g), precise(GetParam()));
+    Workshop w(Vec3(0, 0, -earth_gravity), precise(GetParam()));
     const BodyId arm = w.add(Box{{1, 0.1, 0.1}}, 3, Vec3(0.5, 0, 0));
     const BodyId load = w.add(Sphere{0.1}, 5, Vec3(2, 0, 0));
     const JointId wall = w.world.addJoint({.kind = JointKind::fixed, .a = arm});
     const JointId weld = w.world.addJoint({.kind = JointKind::fixed, .a = load, .b = arm, .anchor = Vec3(1, 0, 0)});
     w.run(1);
-    EXPECT_NEAR(w.world.joint(wall).force.z(), 8 * g, 1e-9);
-    EXPECT_NEAR(w.world.joint(wall).torque.y(), -(3 * 0.5 + 5 * 2) * g, 1e-8);
-    EXPECT_NEAR(w.world.joint(weld).force.z(), 5 * g, 1e-9);
-    EXPECT_NEAR(w.world.joint(weld).torque.y(), -5 * g, 1e-8);
+    EXPECT_NEAR(w.world.joint(wall).force.z(), 8 * earth_gravity, 1e-9);
+    EXPECT_NEAR(w.world.joint(wall).torque.y(), -(3 * 0.5 + 5 * 2) * earth_gravity, 1e-8);
+    EXPECT_NEAR(w.world.joint(weld).force.z(), 5 * earth_gravity, 1e-9);
+    EXPECT_NEAR(w.world.joint(weld).torque.y(), -5 * earth_gravity, 1e-8);
     EXPECT_LE((w.world.pose(load).position - Vec3(2, 0, 0)).norm(), 1e-9);
 }
 
@@ -162,24 +163,24 @@ TEST_P(EveryResolution, AMotorReachesItsSpeedWithItsTorque) {
 }
 
 TEST_P(EveryResolution, ASliderFallsToItsLimitAndStaysThere) {
-    Workshop w(Vec3(0, 0, -g), precise(GetParam()));
+    Workshop w(Vec3(0, 0, -earth_gravity), precise(GetParam()));
     const Vec3 axis = Vec3(1, 0, 1).normalized();
     const BodyId lift = w.add(Box{{0.1, 0.2, 0.3}}, 4, Vec3::Zero());
     const JointId slider =
         w.world.addJoint({.kind = JointKind::slider, .a = lift, .axis = axis, .lower = -0.5, .upper = 1});
     w.run(0.25);
-    const double fallen = 0.5 * g / std::sqrt(2) * 0.25 * 0.25;
+    const double fallen = 0.5 * earth_gravity / std::sqrt(2) * 0.25 * 0.25;
     EXPECT_NEAR(w.world.joint(slider).position, -fallen, 1e-9);
     EXPECT_NEAR(w.world.joint(slider).force.dot(axis), 0, 1e-9);
     w.run(2);
     EXPECT_NEAR(w.world.joint(slider).position, -0.5, 1e-9);
-    EXPECT_NEAR(w.world.joint(slider).force.z(), 4 * g, 1e-6) << "the limit bears the weight";
+    EXPECT_NEAR(w.world.joint(slider).force.z(), 4 * earth_gravity, 1e-6) << "the limit bears the weight";
     EXPECT_LE((w.world.pose(lift).position + 0.5 * axis).norm(), 1e-8);
     EXPECT_LE(w.world.pose(lift).orientation.angularDistance(Quat::Identity()), 1e-8);
 }
 
 TEST_P(EveryResolution, AHingeStopsAtItsLimit) {
-    Workshop w(Vec3(0, 0, -g), precise(GetParam()));
+    Workshop w(Vec3(0, 0, -earth_gravity), precise(GetParam()));
     const BodyId trapdoor = w.add(Box{{1, 1, 0.05}}, 10, Vec3(0.5, 0, 0));
     const JointId hinge =
         w.world.addJoint({.kind = JointKind::hinge, .a = trapdoor, .axis = Vec3::UnitY(), .lower = -0.5, .upper = 0.5});
@@ -190,20 +191,20 @@ TEST_P(EveryResolution, AHingeStopsAtItsLimit) {
     }
     EXPECT_LE(beyond, 1e-9);
     EXPECT_NEAR(w.world.joint(hinge).position, 0.5, 1e-6);
-    EXPECT_NEAR(w.world.joint(hinge).torque.y(), -10 * g * 0.5 * std::cos(0.5), 1e-3);
+    EXPECT_NEAR(w.world.joint(hinge).torque.y(), -10 * earth_gravity * 0.5 * std::cos(0.5), 1e-3);
 }
 
 TEST_P(EveryResolution, ARopeIsSlackUntilItIsTaut) {
-    Workshop w(Vec3(0, 0, -g), precise(GetParam()));
+    Workshop w(Vec3(0, 0, -earth_gravity), precise(GetParam()));
     const BodyId ball = w.add(Sphere{0.05}, 2, Vec3(0, 0, -0.2));
     const JointId rope = w.world.addJoint(
         {.kind = JointKind::rope, .a = ball, .anchor = Vec3(0, 0, -0.2), .anchor_b = Vec3::Zero(), .length = 1});
     w.run(0.3);
-    EXPECT_NEAR(w.world.pose(ball).position.z(), -0.2 - 0.5 * g * 0.09, 1e-9);
+    EXPECT_NEAR(w.world.pose(ball).position.z(), -0.2 - 0.5 * earth_gravity * 0.09, 1e-9);
     EXPECT_TRUE(w.world.joint(rope).impulse.isZero(0));
     w.run(1);
     EXPECT_NEAR(w.world.joint(rope).position, 1, 1e-9);
-    EXPECT_NEAR(w.world.joint(rope).force.z(), 2 * g, 1e-6);
+    EXPECT_NEAR(w.world.joint(rope).force.z(), 2 * earth_gravity, 1e-6);
 }
 
 TEST_P(EveryResolution, JointedBodiesKeepTheirMomentum) {
@@ -259,9 +260,10 @@ TEST(Joints, AClosedLoopMovesThoughItsRowsAreMoreThanItsBodiesCanDo) {
         w.world.setLinearVelocity(body, Vec3(0.5, 0, 0));
     }
     w.world.setLinearVelocity(bar, Vec3(1, 0, 0));
-    // Both swinging bars and the one that they carry: I = 2·(l²/3 + d²/12) + l², moment of weight (2·½ + 1)·g·sin θ.
+    // Both swinging bars and the one that they carry: I = 2·(l²/3 + d²/12) + l², moment of weight (2·½ +
+    // 1)·earth_gravity·sin θ.
     const double inertia = 2 * (0.25 + (1 + 0.0025) / 12) + 1;
-    const double amplitude = 2 * std::asin(std::sqrt(inertia / (4 * 2 * g)));
+    const double amplitude = 2 * std::asin(std::sqrt(inertia / (4 * 2 * earth_gravity)));
     const double before = w.energy();
     const double found = measuredPeriod(w.world, 5, [&] { return w.world.joint(joint).position; });
     EXPECT_NEAR(found, period(inertia / 2, amplitude), 1e-5 * found);
@@ -292,7 +294,7 @@ TEST(Joints, AHingedBallBouncesWithItsRestitutionHoweverAskewItStrikes) {
 TEST(Joints, BallsOnHingesBetweenCradleRodsKeepTheirEnergyForALongTime) {
     Settings settings = precise();
     settings.correction.correction = CorrectionKind::none;
-    Workshop w(Vec3(0, 0, -g), settings);
+    Workshop w(Vec3(0, 0, -earth_gravity), settings);
     const double radius = 0.05;
     const double length = 1;
     std::vector<BodyId> balls;
@@ -303,12 +305,12 @@ TEST(Joints, BallsOnHingesBetweenCradleRodsKeepTheirEnergyForALongTime) {
         balls.push_back(w.add(Sphere{radius}, 1, place));
         w.world.addJoint({.kind = JointKind::hinge, .a = balls.back(), .anchor = pivot, .axis = Vec3::UnitY()});
     }
-    const double before = w.energy() + 3 * g * length;
+    const double before = w.energy() + 3 * earth_gravity * length;
     double worst = 0;
     double farthest = 0;
     for (int i = 0; i < 20 * 2 * 960; ++i) {
         w.world.step();
-        worst = std::max(worst, std::abs(w.energy() + 3 * g * length - before));
+        worst = std::max(worst, std::abs(w.energy() + 3 * earth_gravity * length - before));
         farthest = std::max(farthest, w.world.pose(balls[2]).position.x() - 4 * radius);
     }
     EXPECT_LE(worst, 2e-4 * before);

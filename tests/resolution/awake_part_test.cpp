@@ -10,7 +10,7 @@ using test::Pile;
 
 constexpr double wake_speed = 0.01;  // [m/s]
 
-ResolutionSettings sweeping(double speed = wake_speed) {
+ResolutionSettings holdingSleepers(double speed = wake_speed) {
     ResolutionSettings settings = test::exactSettings();
     settings.resolution = ResolutionKind::accelerated_sweeps;
     settings.restitution_threshold = 0.05;
@@ -40,7 +40,7 @@ int sleepersOf(const Pile& pile) {
 TEST(AwakePart, AnImpactGoesThroughASleepingRowInTheSameStep) {
     Pile pile = row(40);
     pile.v[0] = Vec3(20, 0, 0);
-    pile.resolve(sweeping());
+    pile.resolve(holdingSleepers());
     EXPECT_EQ(sleepersOf(pile), 0);
     EXPECT_NEAR(pile.momentum().x(), 20, 1e-9);
     for (const Vec3& v : pile.v) EXPECT_NEAR(v.x(), 0.5, 1e-6);
@@ -49,7 +49,7 @@ TEST(AwakePart, AnImpactGoesThroughASleepingRowInTheSameStep) {
 TEST(AwakePart, WhatIsTooSlowToWakeAnythingStops) {
     Pile pile = row(40);
     pile.v[0] = Vec3(0.7 * wake_speed, 0, 0);
-    pile.resolve(sweeping());
+    pile.resolve(holdingSleepers());
     EXPECT_EQ(sleepersOf(pile), 39);
     for (const Vec3& v : pile.v) EXPECT_LT(v.norm(), 1e-12);
 }
@@ -57,7 +57,7 @@ TEST(AwakePart, WhatIsTooSlowToWakeAnythingStops) {
 TEST(AwakePart, WithoutAWakeSpeedAllAreResolved) {
     Pile pile = row(40);
     pile.v[0] = Vec3(0.002, 0, 0);
-    pile.resolve(sweeping(0));
+    pile.resolve(holdingSleepers(0));
     EXPECT_EQ(sleepersOf(pile), 0);
     EXPECT_NEAR(pile.momentum().x(), 0.002, 1e-12);
 }
@@ -69,7 +69,7 @@ TEST(AwakePart, WhatCarriesTheSamePushSleepsOnAndKeepsItsImpulses) {
         contact.reference_impulse = contact.last_impulse;
     }
     pile.v[0] = Vec3(0.5 + 0.9 * wake_speed / 2, 0, 0);
-    pile.resolve(sweeping());
+    pile.resolve(holdingSleepers());
     EXPECT_EQ(sleepersOf(pile), 9);
     EXPECT_NEAR(pile.v[0].x(), 0, 1e-12);
     EXPECT_EQ(pile.contacts[5].impulse, pile.contacts[5].last_impulse);
@@ -79,7 +79,7 @@ TEST(AwakePart, WhatCarriesTheSamePushSleepsOnAndKeepsItsImpulses) {
 TEST(AwakePart, AContactOfTwoAwakeBodiesIsTheNextReference) {
     Pile pile = row(3);
     pile.v[0] = Vec3(3, 0, 0);
-    pile.resolve(sweeping());
+    pile.resolve(holdingSleepers());
     for (const Contact& contact : pile.contacts) EXPECT_EQ(contact.reference_impulse, contact.impulse);
     EXPECT_NEAR(pile.contacts[0].impulse.x(), -2, 1e-9);
 }
@@ -87,7 +87,7 @@ TEST(AwakePart, AContactOfTwoAwakeBodiesIsTheNextReference) {
 TEST(AwakePart, TheImpulseQueueWakesWhatItTouches) {
     Pile pile = row(3);
     pile.v[0] = Vec3(0.003, 0, 0);
-    ResolutionSettings settings = sweeping();
+    ResolutionSettings settings = holdingSleepers();
     settings.resolution = ResolutionKind::impulse_queue;
     pile.resolve(settings);
     EXPECT_EQ(pile.asleep[1], 0);

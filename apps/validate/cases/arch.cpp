@@ -9,6 +9,7 @@
 
 namespace cairn::validation {
 
+namespace arch_case {
 namespace {
 
 constexpr double radius = 1;   ///< of the middle line [m]
@@ -65,12 +66,13 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace arch_case
 
 const Case arch{"arch",
                 "Statics",
                 "A semicircular arch stands or collapses by its thickness",
                 "least thickness 0.1075 R of a semicircular arch of wedges without sliding (Milankovitch 1907)",
                 "Wedges as convex hulls, mean radius 1 m, depth 0.5 m, µ = 0.8, on a plane; they begin unloaded.",
-                run};
+                arch_case::run};
 
 }  // namespace cairn::validation

@@ -8,6 +8,7 @@
 
 namespace cairn::validation {
 
+namespace bouncing_case {
 namespace {
 
 constexpr double height = 1;    ///< [m]
@@ -94,6 +95,7 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace bouncing_case
 
 const Case bouncing{
     "bouncing",
@@ -102,6 +104,6 @@ const Case bouncing{
     "hₙ = e²ⁿh; total time √(2h/g)·(1 + e)/(1 − e): 1.3546, 4.0637 and 8.5789 s",
     "h = 1 m, e = 0.5, 0.8, 0.9, contact margin 1 nm, restitution_speed 'touching': the impact happens somewhere "
     "within a time step, and restitution takes the speed at that moment.",
-    run};
+    bouncing_case::run};
 
 }  // namespace cairn::validation

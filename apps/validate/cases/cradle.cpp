@@ -8,6 +8,7 @@
 
 namespace cairn::validation {
 
+namespace cradle_case {
 namespace {
 
 constexpr double radius = 0.05;  ///< [m]
@@ -51,6 +52,7 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace cradle_case
 
 const Case cradle{
     "cradle",
@@ -59,6 +61,6 @@ const Case cradle{
     "sequential impacts, e = 1: k balls in, k balls out",
     "Touching balls in a row without gravity; k from 1 to n − 1 arrive at 1 m/s. A real cradle disperses a "
     "little, since its contacts overlap in time.",
-    run};
+    cradle_case::run};
 
 }  // namespace cairn::validation

@@ -12,6 +12,7 @@
 
 namespace cairn::validation {
 
+namespace cradle_swing_case {
 namespace {
 
 constexpr std::size_t balls = 5;
@@ -119,12 +120,13 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace cradle_swing_case
 
 const Case cradle_swing{"cradle-swing",
                         "Newton's cradle",
                         "A cradle on rods swings on",
                         "energy is kept; five balls with F ∝ δ^(3/2) as the reference for real ones",
                         "Built-in scene of five elastic balls on rods of 1 m, pulled aside by 0.3 rad.",
-                        run};
+                        cradle_swing_case::run};
 
 }  // namespace cairn::validation

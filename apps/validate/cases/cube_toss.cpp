@@ -8,6 +8,7 @@
 
 namespace cairn::validation {
 
+namespace cube_toss_case {
 namespace {
 
 constexpr double camera = 148;  ///< samples per second of the real recordings
@@ -61,6 +62,7 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace cube_toss_case
 
 const Case cube_toss{"cube-toss",
                      "Real experiments",
@@ -68,6 +70,6 @@ const Case cube_toss{"cube-toss",
                      "recorded tosses, such as those of DAIRLab's ContactNets (not bundled): --toss FILE",
                      "Cube of 104.8 mm and 0.37 kg, µ = 0.18, e = 0.125, 148 samples per second; without a file a "
                      "simulated toss stands in for a recorded one.",
-                     run};
+                     cube_toss_case::run};
 
 }  // namespace cairn::validation

@@ -6,6 +6,7 @@
 
 namespace cairn::validation {
 
+namespace cue_ball_case {
 namespace {
 
 constexpr double radius = 0.028575;  ///< [m]
@@ -86,12 +87,13 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace cue_ball_case
 
 const Case cue_ball{"cue-ball",
                     "Impacts",
                     "Billiard: the 90° and the 30° rule",
                     "tan θ = sin φ cos φ/(sin²φ + 2/5): at most 33.75° at a cut angle of 28.1°",
                     "Balls of 57.15 mm and 170 g, elastic and without friction on each other; µ = 0.2 on the cloth.",
-                    run};
+                    cue_ball_case::run};
 
 }  // namespace cairn::validation

@@ -8,6 +8,7 @@
 
 namespace cairn::validation {
 
+namespace dominoes_wave_case {
 namespace {
 
 const Vec3 domino(0.0075, 0.024, 0.048);  ///< thickness, width, height [m]
@@ -77,6 +78,7 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace dominoes_wave_case
 
 const Case dominoes_wave{
     "dominoes",
@@ -85,6 +87,6 @@ const Case dominoes_wave{
     "J. M. J. van Leeuwen, The domino effect, Am. J. Phys. 78 (2010)",
     "48 × 24 × 7.5 mm, 80 of them, µ = 0.2 between them, feet that do not slip (µ = 10), e = 0; speed "
     "between the 40th and the 75th.",
-    run};
+    dominoes_wave_case::run};
 
 }  // namespace cairn::validation

@@ -5,6 +5,7 @@
 
 namespace cairn::validation {
 
+namespace dzhanibekov_case {
 namespace {
 
 constexpr double duration = 60;  ///< [s]
@@ -75,6 +76,7 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace dzhanibekov_case
 
 const Case dzhanibekov{"dzhanibekov",
                        "Free flight",
@@ -82,6 +84,6 @@ const Case dzhanibekov{"dzhanibekov",
                        "T = 4K(k)/p, Landau and Lifshitz, Mechanics, §37",
                        "Inertias (1, 2, 3) kg·m², ω₀ = (0.1, 5, 0.1) rad/s, 60 s. The period is twice the mean time "
                        "between sign changes of ω₂.",
-                       run};
+                       dzhanibekov_case::run};
 
 }  // namespace cairn::validation

@@ -6,6 +6,7 @@
 
 namespace cairn::validation {
 
+namespace gas_case {
 namespace {
 
 constexpr double radius = 0.05;   ///< [m]
@@ -101,12 +102,13 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace gas_case
 
 const Case gas{"gas",
                "Gas",
                "1000 elastic balls are a gas",
                "energy and momentum; Maxwell–Boltzmann; pressure by Carnahan and Starling",
                "Balls of 10 cm and 1 kg fill 10 % of a cage; no gravity, e = 1, no friction; all begin with 1 m/s.",
-               run};
+               gas_case::run};
 
 }  // namespace cairn::validation

@@ -5,6 +5,7 @@
 
 namespace cairn::validation {
 
+namespace haff_case {
 namespace {
 
 constexpr double radius = 0.05;    ///< [m]
@@ -63,6 +64,7 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace haff_case
 
 const Case haff{
     "haff",
@@ -72,6 +74,6 @@ const Case haff{
     "4096 balls of 10 cm and 1 kg fill 5 % of a cage with elastic walls; e = 0.9 between balls. n is their number "
     "over the volume that their centres reach; ν is less by the part of their surroundings that is in the "
     "walls.",
-    run};
+    haff_case::run};
 
 }  // namespace cairn::validation

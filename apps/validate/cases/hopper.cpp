@@ -7,6 +7,7 @@
 
 namespace cairn::validation {
 
+namespace hopper_case {
 namespace {
 
 /// A shaft with a square hole in its floor.
@@ -103,6 +104,7 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace hopper_case
 
 const Case hopper{"hopper",
                   "Granular",
@@ -110,6 +112,6 @@ const Case hopper{"hopper",
                   "Beverloo 1961: rate ∝ (D − kd)^(5/2), whatever the head",
                   "1200 spheres of 10 cm in a shaft of 12 × 12 diameters with a square hole of 4 to 7 diameters, µ = "
                   "0.3; the mean of five fillings each.",
-                  run};
+                  hopper_case::run};
 
 }  // namespace cairn::validation

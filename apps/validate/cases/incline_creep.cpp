@@ -3,6 +3,7 @@
 
 namespace cairn::validation {
 
+namespace incline_creep_case {
 namespace {
 
 constexpr double angle = 20 * degree;
@@ -31,12 +32,13 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace incline_creep_case
 
 const Case incline_creep{"incline-creep",
                          "Incline",
                          "A sticking box does not creep",
                          "displacement 0",
                          "θ = 20°, µ = 0.5, sleeping off, 60 s.",
-                         run};
+                         incline_creep_case::run};
 
 }  // namespace cairn::validation

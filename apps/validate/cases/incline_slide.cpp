@@ -6,6 +6,7 @@
 
 namespace cairn::validation {
 
+namespace incline_slide_case {
 namespace {
 
 constexpr double angle = 30 * degree;
@@ -60,12 +61,13 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace incline_slide_case
 
 const Case incline_slide{"incline-slide",
                          "Incline",
                          "A box slides down with the same acceleration in every direction",
                          "a = g (sin θ − µ cos θ)",
                          "θ = 30°, µ = 0.2, from rest, 1 s; 16 compass headings.",
-                         run};
+                         incline_slide_case::run};
 
 }  // namespace cairn::validation

@@ -5,6 +5,7 @@
 
 namespace cairn::validation {
 
+namespace incline_threshold_case {
 namespace {
 
 constexpr double friction = 0.5;
@@ -38,6 +39,7 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace incline_threshold_case
 
 const Case incline_threshold{"incline-threshold",
                              "Incline",
@@ -45,6 +47,6 @@ const Case incline_threshold{"incline-threshold",
                              "tan θ = µ",
                              "µ = 0.5, box 0.4 × 0.4 × 0.1 m, heading 0.3 rad; it slips if it moved 0.1 mm in 1 s; "
                              "bisection to 0.002°.",
-                             run};
+                             incline_threshold_case::run};
 
 }  // namespace cairn::validation

@@ -5,6 +5,7 @@
 
 namespace cairn::validation {
 
+namespace mass_ratios_case {
 namespace {
 
 constexpr double edge = 0.2;  ///< [m]
@@ -30,6 +31,7 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace mass_ratios_case
 
 const Case mass_ratios{"mass-ratios",
                        "Stacks",
@@ -38,6 +40,6 @@ const Case mass_ratios{"mass-ratios",
                        "Cubes of 20 cm; the lower 1 kg, the upper 10, 100, 1000 and 10 000 kg; 10 s, sleeping off. The "
                        "performance preset holds bodies that came to rest: rows \"nothing held\" are without. Judged "
                        "with accelerated_sweeps; the other resolutions are shown, for 20 s of wall time each.",
-                       run};
+                       mass_ratios_case::run};
 
 }  // namespace cairn::validation

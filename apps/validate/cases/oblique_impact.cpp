@@ -8,6 +8,7 @@
 
 namespace cairn::validation {
 
+namespace oblique_impact_case {
 namespace {
 
 constexpr double radius = 0.1;  ///< [m]
@@ -85,12 +86,13 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace oblique_impact_case
 
 const Case oblique_impact{"oblique-impact",
                           "Impacts",
                           "A ball hits a plate at an angle",
                           "slips: vₜ' = vₜ − µ(1 + e)vₙ; sticks: vₜ' = 5vₜ/7; limit vₜ/vₙ = 7µ(1 + e)/2",
                           "e = 0.8, µ = 0.25, vₙ = 2 m/s, no gravity; vₜ/vₙ from 0.1 to 4 times the limit.",
-                          run};
+                          oblique_impact_case::run};
 
 }  // namespace cairn::validation

@@ -5,6 +5,7 @@
 
 namespace cairn::validation {
 
+namespace overhang_case {
 namespace {
 
 const Vec3 block(0.2, 0.1, 0.03);  ///< [m]
@@ -49,12 +50,13 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace overhang_case
 
 const Case overhang{"overhang",
                     "Statics",
                     "Blocks overhang a table's edge by the harmonic series",
                     "½ Σ 1/i lengths: 0.75, 0.917, 1.042, 1.142 for n = 2 to 5",
                     "Blocks of 20 × 10 × 3 cm, µ = 0.5, 5 s.",
-                    run};
+                    overhang_case::run};
 
 }  // namespace cairn::validation

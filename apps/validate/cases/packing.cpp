@@ -8,6 +8,7 @@
 
 namespace cairn::validation {
 
+namespace packing_case {
 namespace {
 
 constexpr double width = 8 * grain;  ///< of the shaft
@@ -87,6 +88,7 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace packing_case
 
 const Case packing{"packing",
                    "Granular",
@@ -97,6 +99,6 @@ const Case packing{"packing",
                    "800 grains of 10 cm poured, turned any way, into a shaft of 8 × 8 diameters in portions of 80; the "
                    "fraction is measured 1.5 diameters from the walls, as the mean of three fillings. Performance "
                    "preset at 1/480 s with up to 20 sweeps and overlaps of at most 1 % of a grain.",
-                   run};
+                   packing_case::run};
 
 }  // namespace cairn::validation

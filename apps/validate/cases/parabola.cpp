@@ -3,6 +3,7 @@
 
 namespace cairn::validation {
 
+namespace parabola_case {
 namespace {
 
 const Vec3 thrown(3, -4, 60);    ///< [m/s]
@@ -39,6 +40,7 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace parabola_case
 
 const Case parabola{"parabola",
                     "Free flight",
@@ -46,6 +48,6 @@ const Case parabola{"parabola",
                     "x = v₀t + gt²/2",
                     "v₀ = (3, −4, 60) m/s for 10 s; the setting exact_flight. Without it positions follow the velocity "
                     "at the beginning of each step, as in the thesis.",
-                    run};
+                    parabola_case::run};
 
 }  // namespace cairn::validation

@@ -10,6 +10,7 @@
 
 namespace cairn::validation {
 
+namespace repose_case {
 namespace {
 
 constexpr double tray = 10 * grain;  ///< inner width [m]
@@ -82,6 +83,7 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace repose_case
 
 const Case repose{
     "repose",
@@ -91,6 +93,6 @@ const Case repose{
     "450 spheres of 10 cm poured onto a tray of 10 × 10 diameters with a rim of one; the angle is that of a "
     "pyramid over the outer width of the rim with the volume of the grains above it at a solid fraction of 0.58; the "
     "mean of three heaps each.",
-    run};
+    repose_case::run};
 
 }  // namespace cairn::validation

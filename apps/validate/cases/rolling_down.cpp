@@ -6,6 +6,7 @@
 
 namespace cairn::validation {
 
+namespace rolling_down_case {
 namespace {
 
 constexpr double angle = 20 * std::numbers::pi / 180;
@@ -49,6 +50,7 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace rolling_down_case
 
 const Case rolling_down{
     "rolling-down",
@@ -56,6 +58,6 @@ const Case rolling_down{
     "Round bodies roll down an incline",
     "a = g sin θ / (1 + k), k = I/(m r²)",
     "Radius 0.1 m; cylinder and capsule 0.3 m long between their caps; θ = 20°, µ = 0.5, from rest, 1 s.",
-    run};
+    rolling_down_case::run};
 
 }  // namespace cairn::validation

@@ -5,6 +5,7 @@
 
 namespace cairn::validation {
 
+namespace seesaw_case {
 namespace {
 
 const Vec3 plank(3, 0.3, 0.05);     ///< [m]
@@ -96,13 +97,14 @@ Result shoot(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace seesaw_case
 
 const Case seesaw{"seesaw",
                   "Statics",
                   "A see-saw balances by the lever's law",
                   "m₂ = m₁ d₁/d₂",
                   "Plank of 3 m and 20 kg on a hinge, blocks of 20 cm at 1.2 m (10 kg) and 0.8 m; bisection to 0.01 %.",
-                  balance};
+                  seesaw_case::balance};
 
 const Case catapult{
     "catapult",
@@ -111,6 +113,6 @@ const Case catapult{
     "m₁ v d₁ = (I + m₁ d₁² + m₂ d₂²) ω about the hinge, shot's speed ω d₂",
     "Plank of 3 m and 20 kg on a hinge; a stone of 30 kg falls 1 m onto one arm (0.7 m), a shot of 2 kg "
     "lies on the other (1.4 m); e = 0, no friction.",
-    shoot};
+    seesaw_case::shoot};
 
 }  // namespace cairn::validation

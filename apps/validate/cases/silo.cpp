@@ -7,6 +7,7 @@
 
 namespace cairn::validation {
 
+namespace silo_case {
 namespace {
 
 constexpr double friction = 0.5;
@@ -99,6 +100,7 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace silo_case
 
 const Case silo{
     "silo",
@@ -107,6 +109,6 @@ const Case silo{
     "Janssen: load = S(1 − exp(−weight/S))",
     "Spheres of 10 cm in a shaft of 4 × 4 diameters, µ = 0.5; the floor is lowered by a tenth of a diameter "
     "before its load is measured: the mean of five fillings.",
-    run};
+    silo_case::run};
 
 }  // namespace cairn::validation

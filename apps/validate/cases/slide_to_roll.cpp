@@ -6,6 +6,7 @@
 
 namespace cairn::validation {
 
+namespace slide_to_roll_case {
 namespace {
 
 constexpr double v0 = 5;  ///< [m/s]
@@ -68,12 +69,13 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace slide_to_roll_case
 
 const Case slide_to_roll{"slide-to-roll",
                          "Rolling",
                          "A sliding ball or cylinder begins to roll",
                          "v = v₀/(1 + k), t = (v₀ − v)/(µg), s = t(v₀ + v)/2; k = I/(m r²): 5v₀/7 and 2v₀/3",
                          "Ball, and cylinder of 0.3 m, radius 0.1 m, v₀ = 5 m/s without spin, µ = 0.2, on a plane.",
-                         run};
+                         slide_to_roll_case::run};
 
 }  // namespace cairn::validation

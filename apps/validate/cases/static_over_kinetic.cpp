@@ -5,6 +5,7 @@
 
 namespace cairn::validation {
 
+namespace static_over_kinetic_case {
 namespace {
 
 constexpr double friction_static = 0.5;
@@ -43,12 +44,13 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace static_over_kinetic_case
 
 const Case static_over_kinetic{"static-over-kinetic",
                                "Incline",
                                "Static friction above kinetic friction shows its jump",
                                "a = 0 below tan θ = µs, g (sin θ − µk cos θ) above",
                                "µs = 0.5, µk = 0.3.",
-                               run};
+                               static_over_kinetic_case::run};
 
 }  // namespace cairn::validation

@@ -5,6 +5,7 @@
 
 namespace cairn::validation {
 
+namespace symmetric_top_case {
 namespace {
 
 constexpr double duration = 100;  ///< [s]
@@ -34,12 +35,13 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace symmetric_top_case
 
 const Case symmetric_top{"symmetric-top",
                          "Free flight",
                          "A symmetric top precesses about its angular momentum",
                          "R(t) = exp(L t/I₁) · exp(e₃ ω₃(1 − I₃/I₁) t)",
                          "Box 0.6 × 0.6 × 0.2 m, 10 kg, ω₀ = (1, 0, 6) rad/s, 100 s (about 180 turns).",
-                         run};
+                         symmetric_top_case::run};
 
 }  // namespace cairn::validation

@@ -5,6 +5,7 @@
 
 namespace cairn::validation {
 
+namespace tipping_case {
 namespace {
 
 const Vec3 size(0.2, 0.2, 0.5);  ///< [m]
@@ -59,12 +60,13 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace tipping_case
 
 const Case tipping{"tipping",
                    "Statics",
                    "A box tips or slides when it must",
                    "tips at tan θ = b/h on an incline, at F/(mg) = b/(2·height) under a push; slides at µ",
                    "Box 0.2 × 0.2 × 0.5 m; pushes as the angle atan F/(mg); 3 s each, bisection to 0.02°.",
-                   run};
+                   tipping_case::run};
 
 }  // namespace cairn::validation

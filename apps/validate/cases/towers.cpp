@@ -5,6 +5,7 @@
 
 namespace cairn::validation {
 
+namespace towers_case {
 namespace {
 
 constexpr double edge = 0.1;  ///< [m]
@@ -34,6 +35,7 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace towers_case
 
 const Case towers{"towers",
                   "Stacks",
@@ -42,6 +44,6 @@ const Case towers{"towers",
                   "10, 20 and 40 cubes of 10 cm and 1 kg, µ = 0.5, e = 0.25, 60 s, sleeping off. The performance "
                   "preset holds bodies that came to rest: rows \"nothing held\" are without. Judged with "
                   "accelerated_sweeps; the other resolutions are shown, for 20 s of wall time each.",
-                  run};
+                  towers_case::run};
 
 }  // namespace cairn::validation

@@ -3,6 +3,7 @@
 
 namespace cairn::validation {
 
+namespace tumbling_box_case {
 namespace {
 
 constexpr double duration = 10;  ///< [s]
@@ -32,12 +33,13 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace tumbling_box_case
 
 const Case tumbling_box{"tumbling-box",
                         "Free flight",
                         "A tumbling box keeps angular momentum and energy",
                         "Euler's equations; the box benchmark of Peters and Hsu for four engines, 2014",
                         "0.1 × 0.4 × 0.9 m, 10 kg, ω₀ = (0.1, 5, 0.1) rad/s, near the unstable axis, for 10 s.",
-                        run};
+                        tumbling_box_case::run};
 
 }  // namespace cairn::validation

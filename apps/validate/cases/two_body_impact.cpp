@@ -8,6 +8,7 @@
 
 namespace cairn::validation {
 
+namespace two_body_impact_case {
 namespace {
 
 constexpr double radius = 0.1;  ///< [m]
@@ -58,12 +59,13 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace two_body_impact_case
 
 const Case two_body_impact{"two-body-impact",
                            "Impacts",
                            "Two balls collide",
                            "v₁' = (m₁ − e m₂)/(m₁ + m₂) v, v₂' = m₁(1 + e)/(m₁ + m₂) v",
                            "Central impact without gravity, mass ratios from 10⁻⁶ to 10⁶, e = 0, 0.5 and 1.",
-                           run};
+                           two_body_impact_case::run};
 
 }  // namespace cairn::validation

@@ -5,6 +5,7 @@
 
 namespace cairn::validation {
 
+namespace walls_case {
 namespace {
 
 const Vec3 brick(0.2, 0.1, 0.1);  ///< [m]
@@ -37,6 +38,7 @@ Result run(const Plan& plan) {
 }
 
 }  // namespace
+}  // namespace walls_case
 
 const Case walls{"walls",
                  "Stacks",
@@ -45,6 +47,6 @@ const Case walls{"walls",
                  "Triangular walls of 55 and 465 bricks of 20 × 10 × 10 cm and 1 kg, µ = 0.5, e = 0.25, 60 s, sleeping "
                  "off. The performance preset holds bodies that came to rest: rows \"nothing held\" are without. "
                  "Judged with accelerated_sweeps; the other resolutions are shown, for 20 s of wall time each.",
-                 run};
+                 walls_case::run};
 
 }  // namespace cairn::validation

@@ -1,21 +1,22 @@
-/// @file cairn view: the testbed in the browser; and the exports that need it.
+/// @file cairn-view: the testbed in the browser; and the exports that need it.
 #include <fmt/format.h>
 
 #include <chrono>
 #include <memory>
 #include <thread>
 
-#include "commands.h"
-#include "interrupt.h"
-#include "output.h"
-#include "override_options.h"
-#include "progress.h"
-#include "scene_argument.h"
+#include "cli/companions.h"
+#include "cli/interrupt.h"
+#include "cli/output.h"
+#include "cli/override_options.h"
+#include "cli/program.h"
+#include "cli/progress.h"
+#include "cli/scene_argument.h"
+#include "cli/view_exports.h"
 #include "view/film.h"
 #include "view/html_export.h"
 #include "view/process.h"
 #include "view/viewer.h"
-#include "view_exports.h"
 
 namespace cairn::cli {
 
@@ -31,6 +32,7 @@ struct ViewOptions {
     std::uint16_t port = default_port;
     bool no_open = false;
     bool paused = false;
+    ViewExports exports;
 };
 
 bool isLoopback(const std::string& host) {
@@ -72,7 +74,7 @@ std::unique_ptr<view::Viewer> makeViewer(const ViewOptions& options) {
     return std::make_unique<view::Viewer>(live, servingFrom(options));
 }
 
-void runView(const ViewOptions& options) {
+void show(const ViewOptions& options) {
     noteInterrupts();
     const auto viewer = makeViewer(options);
     printOut(fmt::format("{}\n", viewer->address()));
@@ -91,9 +93,10 @@ view::FilmOptions filmFrom(const ViewExports& exports) {
     return film;
 }
 
-}  // namespace
-
-void writeViewExports(const RecordingReader& recording, const ViewExports& exports) {
+void write(const ViewOptions& options) {
+    if (options.subjects.size() != 1) throw InputError("one recording at a time can be drawn or exported");
+    const RecordingReader recording(options.subjects.front());
+    const ViewExports& exports = options.exports;
     if (!exports.html.empty()) view::exportHtml(recording, exports.html);
     if (exports.png.empty() && exports.mp4.empty()) return;
     noteInterrupts();
@@ -110,20 +113,28 @@ void writeViewExports(const RecordingReader& recording, const ViewExports& expor
     if (!exports.mp4.empty()) view::exportFilm(recording, film, exports.mp4);
 }
 
-void addView(CLI::App& app, int&) {
-    CLI::App* command = app.add_subcommand("view", "Show a running scene or recordings in the browser");
+void addOptions(CLI::App& command, int&) {
     auto options = std::make_shared<ViewOptions>();
     command
-        ->add_option("WHAT", options->subjects,
-                     "A built-in scene, a scene file, or one or two recordings; default: stacks5")
+        .add_option("WHAT", options->subjects,
+                    "A built-in scene, a scene file, or one or two recordings; default: stacks5")
         ->expected(0, 2);
-    addOverrideOptions(*command, options->overrides);
-    command->add_option("--port", options->port, "The port to listen on, 0 for any free one; default: 8137");
-    command->add_option("--host", options->host,
-                        "The address to listen on; default: 127.0.0.1, which only this machine reaches");
-    command->add_flag("--no-open", options->no_open, "Only print the address");
-    command->add_flag("--paused", options->paused, "Begin paused instead of with the first viewer");
-    command->callback([options] { runView(*options); });
+    addOverrideOptions(command, options->overrides);
+    command.add_option("--port", options->port, "The port to listen on, 0 for any free one; default: 8137");
+    command.add_option("--host", options->host,
+                       "The address to listen on; default: 127.0.0.1, which only this machine reaches");
+    command.add_flag("--no-open", options->no_open, "Only print the address");
+    command.add_flag("--paused", options->paused, "Begin paused instead of with the first viewer");
+    addViewExports(command, *command.add_option_group("exports", "Of one recording; nothing is shown then"),
+                   options->exports);
+    command.callback([options] { options->exports.any() ? write(*options) : show(*options); });
 }
 
+}  // namespace
+
 }  // namespace cairn::cli
+
+int main(int argc, char** argv) {
+    using namespace cairn::cli;
+    return runProgram(argc, argv, "cairn view", std::string(view_companion.description), addOptions);
+}

@@ -1,13 +1,14 @@
-/// @file cairn validate: the physics against closed forms and experiments.
+/// @file cairn-validate: the physics against closed forms and experiments.
 #include "validate/validate.h"
 
 #include <fmt/format.h>
 
 #include <memory>
 
-#include "commands.h"
-#include "interrupt.h"
-#include "output.h"
+#include "cli/companions.h"
+#include "cli/interrupt.h"
+#include "cli/output.h"
+#include "cli/program.h"
 
 namespace cairn::cli {
 
@@ -52,20 +53,24 @@ int runValidate(const ValidateArguments& arguments) {
     }
 }
 
-}  // namespace
-
-void addValidate(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("validate", "Measure the physics against closed forms and experiments");
+void addOptions(CLI::App& command, int& exit_code) {
     auto arguments = std::make_shared<ValidateArguments>();
-    command->add_option("--only", arguments->only, "Cases or groups by name, renewed in the page; default: all")
+    command.add_option("--only", arguments->only, "Cases or groups by name, renewed in the page; default: all")
         ->delimiter(',');
-    command->add_option("--out", arguments->out, "Folder of the page; default: validation")->type_name("DIR");
-    command->add_option("--toss", arguments->tosses, "Recorded tosses of a cube for the case 'cube-toss'")
+    command.add_option("--out", arguments->out, "Folder of the page; default: validation")->type_name("DIR");
+    command.add_option("--toss", arguments->tosses, "Recorded tosses of a cube for the case 'cube-toss'")
         ->type_name("FILE")
         ->delimiter(',');
-    command->add_flag("--quick", arguments->quick, "Coarser and shorter: for a first look");
-    command->add_flag("--list", arguments->list, "Name the cases and end");
-    command->callback([arguments, &exit_code] { exit_code = runValidate(*arguments); });
+    command.add_flag("--quick", arguments->quick, "Coarser and shorter: for a first look");
+    command.add_flag("--list", arguments->list, "Name the cases and end");
+    command.callback([arguments, &exit_code] { exit_code = runValidate(*arguments); });
 }
 
+}  // namespace
+
 }  // namespace cairn::cli
+
+int main(int argc, char** argv) {
+    using namespace cairn::cli;
+    return runProgram(argc, argv, "cairn validate", std::string(validate_companion.description), addOptions);
+}

@@ -1,11 +1,9 @@
-/// @file What 'cairn export' makes with the viewer: pages, pictures and films.
+/// @file What `cairn export` has cairn-view make: pages, pictures and films.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
-
-#include "cairn/recording.h"
 
 namespace cairn::cli {
 
@@ -19,12 +17,14 @@ struct ViewExports {
     double speed = 1;
     std::vector<double> camera;  ///< empty = chosen so that everything is seen
     std::string theme = "light";
+
+    bool any() const { return !html.empty() || !png.empty() || !mp4.empty(); }
 };
 
 /// Adds --html, --png and --mp4 to the formats, and what shapes them to the command. @param exports must outlive it
-void addViewExports(CLI::App& command, CLI::Option_group& formats, ViewExports& exports);
+void addViewExports(CLI::App& command, CLI::App& formats, ViewExports& exports);
 
-/// Writes what is asked for. @throws InputError, IoError
-void writeViewExports(const RecordingReader& recording, const ViewExports& exports);
+/// Has cairn-view write what is asked for. @param recording its file @return the exit code @throws IoError
+int writeViewExports(const std::string& recording, const ViewExports& exports);
 
 }  // namespace cairn::cli

@@ -1,4 +1,4 @@
-#include "scene_argument.h"
+#include "cli/scene_argument.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "override_options.h"
+#include "cli/override_options.h"
 
 #include <fmt/format.h>
 

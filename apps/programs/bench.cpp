@@ -1,4 +1,4 @@
-#include "bench_suites.h"
+/// @file cairn-bench: the suites of our own; the thesis's benchmarks are a program beside it.
 
 #include <fmt/format.h>
 
@@ -9,11 +9,12 @@
 #include "bench/plot.h"
 #include "bench/scaling.h"
 #include "bench/scenes.h"
-#include "bench_progress.h"
-#include "commands.h"
-#include "interrupt.h"
-#include "output.h"
-#include "override_options.h"
+#include "cli/bench_progress.h"
+#include "cli/companions.h"
+#include "cli/interrupt.h"
+#include "cli/output.h"
+#include "cli/override_options.h"
+#include "cli/program.h"
 
 namespace cairn::cli {
 
@@ -297,13 +298,28 @@ void addKernelsSuite(CLI::App& bench, int& exit_code) {
     });
 }
 
-}  // namespace
-
-void addBenchSuites(CLI::App& bench, int& exit_code) {
+void addSuites(CLI::App& bench, int& exit_code) {
+    bench.require_subcommand(1);
+    bench.add_subcommand(std::string(thesis_companion.command), std::string(thesis_companion.description));
     addKernelsSuite(bench, exit_code);
     addScenesSuite(bench, exit_code);
     addScalingSuite(bench, exit_code);
     addPeersSuite(bench, exit_code);
 }
 
+}  // namespace
+
 }  // namespace cairn::cli
+
+int main(int argc, char** argv) {
+    using namespace cairn::cli;
+    if (argc > 1 && argv[1] == thesis_companion.command) {
+        try {
+            becomeCompanion(thesis_companion, {argv + 2, argv + argc});
+        } catch (const std::exception& error) {
+            printError(error.what());
+            return run_failed;
+        }
+    }
+    return runProgram(argc, argv, "cairn bench", "Measure", addSuites);
+}

@@ -1,16 +1,16 @@
-/// @file cairn bench: the thesis's benchmarks beside ours, and the suites of our own.
+/// @file cairn-bench-thesis: the thesis's benchmarks beside ours.
 #include "bench_thesis/bench.h"
 
 #include <fmt/format.h>
 
 #include <memory>
 
-#include "bench_progress.h"
-#include "bench_suites.h"
-#include "commands.h"
-#include "interrupt.h"
-#include "output.h"
-#include "view_exports.h"
+#include "cli/bench_progress.h"
+#include "cli/companions.h"
+#include "cli/interrupt.h"
+#include "cli/output.h"
+#include "cli/program.h"
+#include "cli/view_exports.h"
 
 namespace cairn::cli {
 
@@ -24,13 +24,15 @@ struct BenchArguments {
     std::optional<double> rating;
 };
 
-void drawPicture(const RecordingReader& recording, const thesis::Picture& picture) {
+void drawPicture(const thesis::Picture& picture) {
     ViewExports exports;
     exports.png = picture.file.string();
     exports.time = picture.time;
     exports.camera = picture.camera;
     exports.size = {720, 450};
-    writeViewExports(recording, exports);
+    if (writeViewExports(picture.recording.string(), exports) != fine) {
+        throw IoError("cairn-view could not draw them; its message stands above");
+    }
 }
 
 thesis::BenchOutcome measure(const BenchArguments& arguments) {
@@ -62,23 +64,24 @@ int runThesis(const BenchArguments& arguments) {
     }
 }
 
-}  // namespace
-
-void addBench(CLI::App& app, int& exit_code) {
-    CLI::App* bench = app.add_subcommand("bench", "Measure");
-    bench->require_subcommand(1);
-    CLI::App* command = bench->add_subcommand("thesis", "Repeat every benchmark of the thesis and write a report");
+void addOptions(CLI::App& command, int& exit_code) {
     auto arguments = std::make_shared<BenchArguments>();
-    command->add_option("--only", arguments->only, "Sections such as 5.3; default: all")->delimiter(',');
-    command->add_option("--out", arguments->out, "Folder of the report; default: report")->type_name("DIR");
-    command->add_flag("--quick", arguments->quick, "Shortened, once: for the signs of the results, not the numbers");
-    command->add_flag("--no-pictures", arguments->no_pictures, "Draw no pictures");
+    command.add_option("--only", arguments->only, "Sections such as 5.3; default: all")->delimiter(',');
+    command.add_option("--out", arguments->out, "Folder of the report; default: report")->type_name("DIR");
+    command.add_flag("--quick", arguments->quick, "Shortened, once: for the signs of the results, not the numbers");
+    command.add_flag("--no-pictures", arguments->no_pictures, "Draw no pictures");
     command
-        ->add_option("--rating", arguments->rating,
-                     "PassMark single-thread rating of this processor, for the factor to the thesis's")
+        .add_option("--rating", arguments->rating,
+                    "PassMark single-thread rating of this processor, for the factor to the thesis's")
         ->check(CLI::PositiveNumber);
-    command->callback([arguments, &exit_code] { exit_code = runThesis(*arguments); });
-    addBenchSuites(*bench, exit_code);
+    command.callback([arguments, &exit_code] { exit_code = runThesis(*arguments); });
 }
 
+}  // namespace
+
 }  // namespace cairn::cli
+
+int main(int argc, char** argv) {
+    using namespace cairn::cli;
+    return runProgram(argc, argv, "cairn bench thesis", std::string(thesis_companion.description), addOptions);
+}

@@ -1,9 +1,9 @@
-#include "bench_progress.h"
+#include "cli/bench_progress.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "output.h"
+#include "cli/output.h"
 
 namespace cairn::cli {
 

@@ -1,0 +1,11 @@
+# Most of a compilation is reading and instantiating Eigen, which sources that are compiled together share. Names in
+# unnamed namespaces must then differ within a target. `make tidy` compiles every source alone.
+#   cairn_compile_together(TARGET SOURCES_AT_ONCE)
+function(cairn_compile_together target sources_at_once)
+  if(NOT CAIRN_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${sources_at_once})
+  # g++ takes a source that is included for a header, in which members of unnamed namespaces would be a mistake.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endfunction()
