@@ -27,6 +27,7 @@ BUILD = cmake --build --preset release --target
 
 # A compiler cache is used where there is one.
 export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
+export CCACHE_SLOPPINESS ?= pch_defines,time_macros
 
 COMPANIONS = cairn-view cairn-bench cairn-bench-thesis cairn-validate
 
