@@ -20,8 +20,12 @@ void addAll(CLI::App& app, int& exit_code) {
 
 /// A command of a companion goes to it as it is, --help included.
 void handOver(int argc, char** argv) {
+    const auto is = [&](int place, std::string_view word) { return argc > place && argv[place] == word; };
+    if (is(1, bench_companion.command) && is(2, thesis_companion.command)) {
+        becomeCompanion(thesis_companion, {argv + 3, argv + argc});
+    }
     for (const Companion& companion : companions) {
-        if (argc > 1 && argv[1] == companion.command) becomeCompanion(companion, {argv + 2, argv + argc});
+        if (is(1, companion.command)) becomeCompanion(companion, {argv + 2, argv + argc});
     }
 }
 

@@ -1,4 +1,8 @@
 /// @file Options, messages, exit codes, and the commands that do not simulate.
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
 #include <string>
 
 #include "cairn/scene.h"
@@ -25,6 +29,33 @@ TEST_F(CommandLine, everyCommandHasHelpAndVersion) {
         EXPECT_EQ(number.out, version_line) << command;
         EXPECT_EQ(number.error, "");
     }
+}
+
+TEST_F(CommandLine, companionsAnswerByTheirCommands) {
+    for (const std::string command : {"view", "bench", "bench thesis", "validate"}) {
+        std::vector<std::string> words{command.substr(0, command.find(' '))};
+        if (command == "bench thesis") words.emplace_back("thesis");
+        words.push_back("--help");
+        const Finished help = cairn(words);
+        EXPECT_EQ(help.code, 0) << command << help.error;
+        EXPECT_NE(help.out.find("Usage: cairn " + command), std::string::npos) << help.out;
+    }
+}
+
+TEST_F(CommandLine, aMissingCompanionIsNamedWithTheCommandThatBuildsIt) {
+    std::filesystem::copy_file(CAIRN_PROGRAM, file("alone"));
+    const auto expectMissing = [&](const std::string& arguments, const std::string& companion) {
+        const int status =
+            std::system(fmt::format("cd '{0}' && ./alone {1} 2> said", folder().string(), arguments).c_str());
+        EXPECT_EQ(WEXITSTATUS(status), 1) << arguments;
+        EXPECT_NE(read("said").find(fmt::format("'make {}'", companion)), std::string::npos) << read("said");
+    };
+    expectMissing("view stacks5", "cairn-view");
+    expectMissing("bench peers", "cairn-bench");
+    expectMissing("bench thesis", "cairn-bench-thesis");
+    expectMissing("validate --list", "cairn-validate");
+    write("any.h5", "");
+    expectMissing("export any.h5 --png any.png", "cairn-view");
 }
 
 TEST_F(CommandLine, wrongOptionsAreRefused) {
