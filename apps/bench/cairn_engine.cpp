@@ -25,7 +25,7 @@ class CairnEngine final : public Engine {
 };
 
 std::string describe(const SettingOverrides& overrides, std::int64_t threads) {
-    std::string text = overrides.preset == Preset::accuracy ? "preset accuracy" : "preset performance";
+    std::string text = fmt::format("preset {}", nameOf(overrides.preset.value_or(Preset::performance)));
     for (const auto& [field, value] : overrides.fields) text += fmt::format(", {}={}", field, value);
     return text + fmt::format(", {} {}", threads, threads == 1 ? "thread" : "threads");
 }

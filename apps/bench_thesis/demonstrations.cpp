@@ -17,7 +17,7 @@ constexpr std::int64_t threads = 1;  // a dozen bodies
 
 /// The performance settings, with room for the gravity of the scene.
 Settings settingsOf(const Scene& scene) {
-    Settings settings = thesisSettings(Preset::performance, threads);
+    Settings settings = thesisSettings(Preset::thesis, threads);
     // Without gravity nothing pulls a body down again, so none may be put to sleep (3.2.5).
     if (scene.gravity.isZero()) settings.sleep.sleeping = false;
     return settings;

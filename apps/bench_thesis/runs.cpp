@@ -19,7 +19,7 @@ const ThesisMachine i7_940{"Core i7 940", 4, rating_i7_940};
 /// In a quick run the costly ones end early: late enough to show the sign. [s]
 double quickDuration(const Run& run) {
     if (run.scene == "cage2816") return 1.2;
-    if (run.preset == Preset::accuracy) return run.scene == "cage384" ? 1.5 : 1.2;
+    if (run.preset == Preset::thesis_accuracy) return run.scene == "cage384" ? 1.5 : 1.2;
     if (run.variant == Variant::greedy || run.variant == Variant::latest_first) return 1.5;
     if (run.scene == "stacks8" || run.scene == "well392") return 2;
     return 10;
@@ -32,7 +32,7 @@ bool isShortened(const Run& run, const Plan& plan) {
 
 double weightOf(const Run& run) {
     const double scene = thesisScene(run.scene).weight;
-    if (run.preset == Preset::accuracy) return 25 * scene;
+    if (run.preset == Preset::thesis_accuracy) return 25 * scene;
     if (run.variant == Variant::latest_first) return 5 * scene;
     if (run.variant == Variant::greedy) return 2 * scene;
     return scene;
@@ -127,8 +127,9 @@ const ThesisScene& thesisScene(const std::string& name) {
 }
 
 std::string keyOf(const Run& run) {
-    return fmt::format("{}-{}{}-threads{}", run.scene, run.preset == Preset::accuracy ? "accuracy" : "performance",
-                       nameOf(run.variant), run.threads);
+    return fmt::format("{}-{}{}-threads{}", run.scene,
+                       run.preset == Preset::thesis_accuracy ? "accuracy" : "performance", nameOf(run.variant),
+                       run.threads);
 }
 
 Experiment experimentOf(const Run& run, const Plan& plan) {
@@ -150,7 +151,7 @@ std::int64_t threadsFor(const ThesisScene& scene, const Plan& plan) {
 }
 
 Run plainRun(const std::string& scene, const Plan& plan) {
-    return {scene, Preset::performance, Variant::plain, threadsFor(thesisScene(scene), plan)};
+    return {scene, Preset::thesis, Variant::plain, threadsFor(thesisScene(scene), plan)};
 }
 
 std::string processorPart(const ThesisScene& scene, const Plan& plan, double speedup) {

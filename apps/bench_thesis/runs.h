@@ -35,7 +35,7 @@ const ThesisScene& thesisScene(const std::string& name);
 /// A run of a scene.
 struct Run {
     std::string scene;
-    Preset preset = Preset::performance;
+    Preset preset = Preset::thesis;  ///< or Preset::thesis_accuracy
     Variant variant = Variant::plain;
     std::int64_t threads = 2;
 };

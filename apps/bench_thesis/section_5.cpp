@@ -26,7 +26,7 @@ constexpr std::array<Published, 3> published = {{{"stacks5", "Figure 36(a)", 29.
 
 Run accurate(const std::string& scene, const Plan& plan) {
     Run run = plainRun(scene, plan);
-    run.preset = Preset::accuracy;
+    run.preset = Preset::thesis_accuracy;
     return run;
 }
 

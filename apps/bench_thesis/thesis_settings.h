@@ -1,4 +1,4 @@
-/// @file The thesis's own settings, whatever Cairn's presets have become since.
+/// @file The presets of the thesis, as its experiments change them.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,8 @@ enum class Variant {
     latest_first  ///< §5.4: the same with the contact that began to close last
 };
 
-/// The settings of the benchmarks. @param threads ≥ 1 @source thesis §5.1, §5.3, §5.4, §5.5
+/// The settings of the benchmarks. @param preset Preset::thesis or Preset::thesis_accuracy @param threads ≥ 1
+/// @source thesis §5.1, §5.3, §5.4, §5.5
 Settings thesisSettings(Preset preset, std::int64_t threads, Variant variant = Variant::plain);
 
 }  // namespace cairn::thesis

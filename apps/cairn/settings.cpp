@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -15,9 +14,15 @@ namespace cairn::cli {
 
 namespace {
 
-using Row = std::array<std::string, 6>;
+/// A field: name, unit, value in each preset, what is allowed, meaning.
+using Row = std::vector<std::string>;
 
-constexpr std::array<std::string_view, 6> headings = {"field", "unit", "performance", "accuracy", "allowed", "meaning"};
+Row headings() {
+    Row row{"field", "unit"};
+    row.insert(row.end(), presetNames().begin(), presetNames().end());
+    row.insert(row.end(), {"allowed", "meaning"});
+    return row;
+}
 
 std::string valueText(const SettingValue& value) {
     return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
@@ -31,16 +36,17 @@ std::string allowedText(const SettingField& field, const SettingValue& value) {
     return fmt::format("{} to {}", field.minimum, field.maximum);
 }
 
-/// The rows of a stage, with the values of both presets.
 std::vector<Row> rowsOf(std::string_view stage) {
-    const Settings performance = Settings::preset(Preset::performance);
-    const Settings accuracy = Settings::preset(Preset::accuracy);
     std::vector<Row> rows;
     for (const SettingField& field : settingFields()) {
         if (field.stage != stage) continue;
-        const SettingValue value = field.get(performance);
-        rows.push_back({std::string(field.name), std::string(field.unit), valueText(value),
-                        valueText(field.get(accuracy)), allowedText(field, value), std::string(field.meaning)});
+        Row row{std::string(field.name), std::string(field.unit)};
+        for (const std::string_view preset : presetNames()) {
+            row.push_back(valueText(field.get(Settings::preset(presetNamed(preset)))));
+        }
+        row.push_back(allowedText(field, field.get(Settings{})));
+        row.emplace_back(field.meaning);
+        rows.push_back(std::move(row));
     }
     return rows;
 }
@@ -60,28 +66,33 @@ std::string markdown() {
         "`settings` of a scene file. The speeds of the presets are given for 10 m/s² and the preset's own steps per\n"
         "second; both scale them.\n";
     for (const std::string_view stage : stages()) {
-        text += fmt::format("\n## {}\n\n| {} |\n|{}\n", stage, fmt::join(headings, " | "), "---|---|---|---|---|---|");
-        for (const Row& row : rowsOf(stage)) {
-            text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row[0], row[1], row[2], row[3], row[4], row[5]);
+        const Row top = headings();
+        text += fmt::format("\n## {}\n\n| {} |\n|", stage, fmt::join(top, " | "));
+        for (std::size_t i = 0; i < top.size(); ++i) text += "---|";
+        text += '\n';
+        for (Row row : rowsOf(stage)) {
+            row.front() = fmt::format("`{}`", row.front());
+            text += fmt::format("| {} |\n", fmt::join(row, " | "));
         }
     }
     return text;
 }
 
 std::string plain() {
-    std::array<std::size_t, 5> width{};
-    for (std::size_t i = 0; i < width.size(); ++i) width[i] = headings[i].size();
+    const Row top = headings();
+    std::vector<std::size_t> width(top.size() - 1);
+    for (std::size_t i = 0; i < width.size(); ++i) width[i] = top[i].size();
     for (const std::string_view stage : stages()) {
         for (const Row& row : rowsOf(stage)) {
             for (std::size_t i = 0; i < width.size(); ++i) width[i] = std::max(width[i], row[i].size());
         }
     }
-    const auto line = [&](const auto& cells) {
+    const auto line = [&](const Row& cells) {
         std::string text;
         for (std::size_t i = 0; i < width.size(); ++i) text += fmt::format("{:<{}}  ", cells[i], width[i]);
-        return text + std::string(cells.back()) + '\n';
+        return text + cells.back() + '\n';
     };
-    std::string text = line(headings);
+    std::string text = line(top);
     for (const std::string_view stage : stages()) {
         text += fmt::format("\n{}\n", stage);
         for (const Row& row : rowsOf(stage)) text += line(row);

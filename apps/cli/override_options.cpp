@@ -27,7 +27,7 @@ std::pair<std::string, std::string> splitField(const std::string& text) {
 
 void addOverrideOptions(CLI::App& command, OverrideOptions& options) {
     command.add_option("--preset", options.preset, "The default is the scene's, or else performance")
-        ->check(CLI::IsMember({"performance", "accuracy"}));
+        ->check(CLI::IsMember(std::vector<std::string>(presetNames().begin(), presetNames().end())));
     command.add_option("--threads", options.threads, "Threads of a step; default: all cores");
     command.add_option("--steps-per-second", options.steps_per_second,
                        "Time steps per simulated second; default: the preset's");
@@ -38,9 +38,7 @@ void addOverrideOptions(CLI::App& command, OverrideOptions& options) {
 
 SettingOverrides overridesFrom(const OverrideOptions& options, const Scene& scene) {
     SettingOverrides overrides{{}, options.steps_per_second, {}};
-    if (!options.preset.empty()) {
-        overrides.preset = options.preset == "accuracy" ? Preset::accuracy : Preset::performance;
-    }
+    if (!options.preset.empty()) overrides.preset = presetNamed(options.preset);
     const bool scene_decides = std::any_of(scene.settings.begin(), scene.settings.end(),
                                            [](const auto& field) { return field.first == "threads"; });
     if (options.threads || !scene_decides) {

@@ -78,12 +78,6 @@ struct SceneArguments {
     double duration = longest_duration;
 };
 
-Preset presetNamed(const std::string& name) {
-    if (name == "accuracy") return Preset::accuracy;
-    if (name == "performance") return Preset::performance;
-    throw InputError(fmt::format("there is no preset '{}'; the presets are performance and accuracy", name));
-}
-
 /// NAME:FIELD=VALUE[,FIELD=VALUE…]
 bench::Variant parseVariant(const std::string& text) {
     const std::size_t colon = text.find(':');

@@ -1,4 +1,4 @@
-/// @file Every setting of a world, one struct per stage, with the two presets of the thesis (§5.1, §5.5).
+/// @file Every setting of a world, one struct per stage, with the presets.
 /// Units, defaults, ranges and meanings of all fields also stand in settingFields(), from which the command line,
 /// the scene files, the documentation and the viewer read them.
 #pragma once
@@ -13,8 +13,20 @@
 
 namespace cairn {
 
-/// The two ends of the dial between speed and truth. @source thesis §5.1 and §5.5
-enum class Preset { performance, accuracy };
+/// Where all fields begin.
+enum class Preset {
+    performance,     ///< for real time
+    accuracy,        ///< the other end of the dial between speed and truth
+    thesis,          ///< the thesis's algorithms with its high performance settings. @source thesis §5.1
+    thesis_accuracy  ///< and with its high accuracy settings. @source thesis §5.5
+};
+
+/// The name of each preset, in the order of the enumeration, as in scene files and `--preset`.
+std::span<const std::string_view> presetNames();
+/// The name of a preset.
+std::string_view nameOf(Preset preset);
+/// The preset with a name. @throws InputError for an unknown one; the text names all
+Preset presetNamed(std::string_view name);
 
 /// How candidates for contacts are found; both find the same.
 enum class BroadPhaseKind { hash_grids, all_pairs };
@@ -142,9 +154,9 @@ struct Settings {
     /// The length of a time step [s].
     double timeStep() const { return 1 / steps_per_second; }
 
-    /// A preset of the thesis. Its speed thresholds are multiples of |g|Δt and are given for g = 10 m/s² and the
-    /// preset's own time step; other values scale them, so that a resting body is still told from a colliding one.
-    /// @param preset which end of the dial
+    /// A preset. Its speed thresholds are multiples of |g|Δt and are given for g = 10 m/s² and the preset's own time
+    /// step; other values scale them, so that a resting body is still told from a colliding one.
+    /// @param preset which one
     /// @param steps_per_second [1/s], 30 to 1e6; 0 = the preset's own (240 or 960)
     /// @param gravity [m/s²], ≥ 0, magnitude of the sum of global accelerations; 0 (weightless) counts as 10
     /// @throws InputError outside the ranges. @source thesis §5.1, §5.5

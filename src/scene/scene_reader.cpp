@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -30,8 +32,10 @@ void readSettings(const JsonNode& node, Scene& scene) {
         const JsonNode entry = node.member(key, value);
         if (key == "preset") {
             const std::string name = entry.text();
-            if (name != "performance" && name != "accuracy") entry.refuse("performance or accuracy");
-            scene.preset = name == "accuracy" ? Preset::accuracy : Preset::performance;
+            if (std::ranges::find(presetNames(), name) == presetNames().end()) {
+                entry.refuse(fmt::format("one of {}", fmt::join(presetNames(), ", ")));
+            }
+            scene.preset = presetNamed(name);
             continue;
         }
         SettingValue setting = readSettingValue(entry);

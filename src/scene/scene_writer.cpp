@@ -227,8 +227,7 @@ std::string valueText(double value) {
 
 std::string settingsText(const Scene& scene) {
     std::string out;
-    if (scene.preset)
-        out += fmt::format(R"("preset":"{}")", *scene.preset == Preset::accuracy ? "accuracy" : "performance");
+    if (scene.preset) out += fmt::format(R"("preset":"{}")", nameOf(*scene.preset));
     for (const auto& [name, value] : scene.settings) {
         if (!out.empty()) out += ",";
         out += text(name) + ":" + std::visit([](const auto& v) { return valueText(v); }, value);

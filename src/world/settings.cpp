@@ -15,7 +15,6 @@ namespace {
 
 /// The smallest number above zero: the lower end of ranges that exclude zero.
 constexpr double above_zero = std::numeric_limits<double>::min();
-constexpr double most_steps_per_second = 1e6;
 /// Far above any use; a body falls beyond the limit of speeds at once [m/s²].
 constexpr double gravity_limit = 1e12;
 
@@ -75,7 +74,7 @@ SettingField stepsPerSecond() {
             "1/s",
             "time steps per simulated second",
             30,
-            most_steps_per_second,
+            1e6,
             {},
             [](const Settings& s) -> SettingValue { return s.steps_per_second; },
             [](Settings& s, const SettingValue& value) { s.steps_per_second = std::get<double>(value); }};
@@ -273,61 +272,6 @@ void requireTogether(const Settings& s, double gravity) {
 }
 
 }  // namespace
-
-Settings Settings::preset(Preset preset, double steps_per_second, double gravity) {
-    const bool accurate = preset == Preset::accuracy;
-    const double own_steps = accurate ? 960 : 240;
-    if (steps_per_second == 0) steps_per_second = own_steps;
-    if (!(steps_per_second >= 30 && steps_per_second <= most_steps_per_second)) {
-        throw InputError(fmt::format("steps_per_second is {}; it must be within 30 and {}", steps_per_second,
-                                     most_steps_per_second));
-    }
-    if (!(gravity >= 0 && std::isfinite(gravity))) {
-        throw InputError(fmt::format("gravity is {} m/s²; it must be finite and at least 0", gravity));
-    }
-    // All speeds below are multiples of |g|Δt; at the preset's own step and g = 10 they are the thesis's figures.
-    const double scale = own_steps / steps_per_second * (gravity > 0 ? gravity / 10 : 1);
-    Settings s;
-    s.steps_per_second = steps_per_second;
-    s.sleep.motion_bias = std::pow(0.9, 240 / steps_per_second);
-    if (accurate) {
-        s.detection.contact_margin = 1e-5;
-        s.correction.penetration_threshold = 0.1e-3;
-        s.correction.correction_rounds = 10;
-        s.resolution.resolution_threshold = 5.2e-6 * scale;
-        s.resolution.restitution_threshold = 11.5e-3 * scale;
-        s.resolution.global_iterations = 0;
-        s.resolution.shock_propagation = false;
-        s.resolution.sweep_limit = 100;
-        s.resolution.moving_sweep_limit = 20;
-        s.resolution.small_sweep_part = 1;
-        s.resolution.sliding_part = 1;
-        s.resolution.visit_limit = 0;
-        s.resolution.sweep_tolerance = 1e-8 * scale;
-        s.resolution.direct_limit = 1000;
-        s.resolution.direct_pairs = 0;
-        s.resolution.wake_speed = 0.52e-3 * scale;
-        s.resolution.rest_speed = 0;
-        s.sleep.sleep_threshold = 0.52e-3 * scale;
-        s.gravity_damping.damping = 0;
-        s.gravity_damping.damping_threshold = 0;
-    } else {
-        s.resolution.resolution_threshold *= scale;
-        s.resolution.restitution_threshold *= scale;
-        s.resolution.sweep_tolerance *= scale;
-        s.resolution.wake_speed *= scale;
-        s.resolution.rest_speed *= scale;
-        s.sleep.sleep_threshold *= scale;
-        s.gravity_damping.damping_threshold *= scale;
-    }
-    // Longer time steps take more sweeps, so that the same simulated time costs about the same.
-    const double longer = std::max(1.0, own_steps / steps_per_second);
-    for (std::int64_t* limit :
-         {&s.resolution.sweep_limit, &s.resolution.moving_sweep_limit, &s.resolution.visit_limit}) {
-        *limit = static_cast<std::int64_t>(std::ceil(longer * static_cast<double>(*limit)));
-    }
-    return s;
-}
 
 std::span<const SettingField> settingFields() {
     return settingTable();

@@ -37,7 +37,7 @@ Experiment constantExperiment(const std::string& key, int* runs) {
 }
 
 TEST(ThesisSettings, AreThoseOfTheHighPerformanceBenchmarks) {
-    const Settings s = thesisSettings(Preset::performance, 2);
+    const Settings s = thesisSettings(Preset::thesis, 2);
     EXPECT_EQ(s.steps_per_second, 240);
     EXPECT_EQ(s.correction.correction, CorrectionKind::propagated);
     EXPECT_EQ(s.correction.penetration_threshold, 1.74e-3);
@@ -56,7 +56,7 @@ TEST(ThesisSettings, AreThoseOfTheHighPerformanceBenchmarks) {
 }
 
 TEST(ThesisSettings, AreThoseOfTheHighAccuracyBenchmarks) {
-    const Settings s = thesisSettings(Preset::accuracy, 1);
+    const Settings s = thesisSettings(Preset::thesis_accuracy, 1);
     EXPECT_EQ(s.steps_per_second, 960);
     EXPECT_EQ(s.correction.penetration_threshold, 0.1e-3);
     EXPECT_EQ(s.sleep.sleep_threshold, 0.52e-3);
@@ -69,9 +69,9 @@ TEST(ThesisSettings, AreThoseOfTheHighAccuracyBenchmarks) {
 }
 
 TEST(ThesisSettings, VariantsChangeWhatTheyAreNamedFor) {
-    EXPECT_EQ(thesisSettings(Preset::performance, 1, Variant::undamped).gravity_damping.damping, 0);
+    EXPECT_EQ(thesisSettings(Preset::thesis, 1, Variant::undamped).gravity_damping.damping, 0);
     for (const Variant variant : {Variant::greedy, Variant::latest_first}) {
-        const Settings s = thesisSettings(Preset::performance, 1, variant);
+        const Settings s = thesisSettings(Preset::thesis, 1, variant);
         EXPECT_EQ(s.resolution.global_iterations, 0);
         EXPECT_FALSE(s.resolution.shock_propagation);
         EXPECT_EQ(s.gravity_damping.damping, 0.7);

@@ -32,7 +32,7 @@ TEST_F(CommandLine, benchPeersNeedsNoPeers) {
 TEST_F(CommandLine, benchRefusesWhatItCannotMeasure) {
     expectWrongUse({"bench", "scenes", "--scenes", "nonsense"}, {"nonsense", "cairn scenes"});
     expectWrongUse({"bench", "scenes", "--variant", "noname"}, {"noname", "NAME:FIELD=VALUE"});
-    expectWrongUse({"bench", "scenes", "--variant", "a:preset=fast"}, {"fast", "performance and accuracy"});
+    expectWrongUse({"bench", "scenes", "--variant", "a:preset=fast"}, {"fast", "performance, accuracy"});
     expectWrongUse({"bench", "scenes", "--resolver", "magic"}, {"magic", "impulse_queue"});
     expectWrongUse({"bench", "scaling", "--sizes", "0"}, {"0 bodies"});
     expectWrongUse({"bench", "peers", "--engines", "cairn,havok"}, {"havok", "bullet"});

@@ -8,8 +8,25 @@
 namespace cairn {
 namespace {
 
-TEST(Presets, PerformanceIsTheTableOfTheThesis) {
-    const Settings s = Settings::preset(Preset::performance);
+/// What the presets of the thesis have in common: its algorithms and nothing else.
+void expectTheThesissAlgorithms(const Settings& s) {
+    EXPECT_EQ(s.correction.correction, CorrectionKind::propagated);
+    EXPECT_EQ(s.correction.spread_levels, 0);
+    EXPECT_EQ(s.correction.correction_rounds, 1);
+    EXPECT_EQ(s.resolution.resolution, ResolutionKind::impulse_queue);
+    EXPECT_EQ(s.resolution.order, ResolutionOrder::highest_closing_speed);
+    EXPECT_EQ(s.resolution.restitution_law, RestitutionLaw::newton);
+    EXPECT_EQ(s.resolution.restitution_speed, RestitutionSpeed::closing);
+    EXPECT_EQ(s.resolution.impacts, Impacts::of_resolution);
+    EXPECT_EQ(s.resolution.wake_speed, 0);
+    EXPECT_EQ(s.resolution.rest_speed, 0);
+    EXPECT_TRUE(s.sleep.sleeping);
+    EXPECT_FALSE(s.integration.exact_flight);
+}
+
+TEST(Presets, ThesisIsTheTableOfTheThesis) {
+    const Settings s = Settings::preset(Preset::thesis);
+    expectTheThesissAlgorithms(s);
     EXPECT_EQ(s.steps_per_second, 240);
     EXPECT_EQ(s.correction.penetration_threshold, 1.74e-3);
     EXPECT_EQ(s.sleep.sleep_threshold, 8.33e-3);
@@ -22,8 +39,9 @@ TEST(Presets, PerformanceIsTheTableOfTheThesis) {
     EXPECT_EQ(s.gravity_damping.damping_threshold, 83.3e-3);
 }
 
-TEST(Presets, AccuracyIsTheTableOfTheThesis) {
-    const Settings s = Settings::preset(Preset::accuracy);
+TEST(Presets, ThesisAccuracyIsTheTableOfTheThesis) {
+    const Settings s = Settings::preset(Preset::thesis_accuracy);
+    expectTheThesissAlgorithms(s);
     EXPECT_EQ(s.steps_per_second, 960);
     EXPECT_EQ(s.correction.penetration_threshold, 0.1e-3);
     EXPECT_EQ(s.sleep.sleep_threshold, 0.52e-3);
@@ -34,15 +52,38 @@ TEST(Presets, AccuracyIsTheTableOfTheThesis) {
     EXPECT_EQ(s.gravity_damping.damping, 0);
 }
 
+TEST(Presets, PerformanceAndAccuracyHaveTheThresholdsOfTheThesis) {
+    for (const auto& [own, of_thesis] :
+         {std::pair(Preset::performance, Preset::thesis), std::pair(Preset::accuracy, Preset::thesis_accuracy)}) {
+        const Settings s = Settings::preset(own);
+        const Settings t = Settings::preset(of_thesis);
+        EXPECT_EQ(s.steps_per_second, t.steps_per_second);
+        EXPECT_EQ(s.correction.penetration_threshold, t.correction.penetration_threshold);
+        EXPECT_EQ(s.sleep.sleep_threshold, t.sleep.sleep_threshold);
+        EXPECT_EQ(s.resolution.resolution_threshold, t.resolution.resolution_threshold);
+        EXPECT_EQ(s.resolution.restitution_threshold, t.resolution.restitution_threshold);
+        EXPECT_EQ(s.gravity_damping.damping, t.gravity_damping.damping);
+    }
+}
+
+TEST(Presets, AreFoundByTheirNames) {
+    for (const std::string_view name : presetNames()) EXPECT_EQ(nameOf(presetNamed(name)), name);
+    EXPECT_EQ(nameOf(Preset::thesis_accuracy), "thesis_accuracy");
+    EXPECT_THROW(presetNamed("fast"), InputError);
+}
+
 TEST(Presets, SpeedThresholdsFollowGravityAndTimeStep) {
     const Settings slow = Settings::preset(Preset::performance, 60, 5);
     EXPECT_DOUBLE_EQ(slow.sleep.sleep_threshold, 8.33e-3 * 4 / 2);
     EXPECT_DOUBLE_EQ(slow.resolution.restitution_threshold, 45.8e-3 * 2);
     EXPECT_EQ(slow.correction.penetration_threshold, 1.74e-3);
+    const Settings thesis = Settings::preset(Preset::thesis, 60, 5);
+    EXPECT_EQ(thesis.sleep.sleep_threshold, slow.sleep.sleep_threshold);
+    EXPECT_EQ(thesis.gravity_damping.damping_threshold, slow.gravity_damping.damping_threshold);
     for (const double steps : {30.0, 60.0, 240.0, 960.0, 1e6}) {
         for (const double g : {0.01, 1.62, 9.81, 10.0, 274.0}) {
-            for (const Preset preset : {Preset::performance, Preset::accuracy}) {
-                EXPECT_NO_THROW(validate(Settings::preset(preset, steps, g), Vec3(0, 0, -g)));
+            for (const std::string_view preset : presetNames()) {
+                EXPECT_NO_THROW(validate(Settings::preset(presetNamed(preset), steps, g), Vec3(0, 0, -g)));
             }
         }
     }
