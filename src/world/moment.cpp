@@ -74,6 +74,8 @@ void loadMoment(const MomentState& moment, WorldState& world) {
     // What the last step left for viewers is that of another step.
     world.data.bounds.clear();
     forgetPlaces(world.data.still);
+    world.data.contacts_of.begin.clear();
+    world.ties.forget();
     world.data.near_pairs.forget();
     world.trace.correction.clear();
     world.trace.shock_stage.clear();

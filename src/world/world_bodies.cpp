@@ -13,6 +13,39 @@ namespace cairn {
 
 namespace {
 
+/// Wakes what touches a body that is about to be removed.
+void wakeTouching(WorldState& w, BodyId id) {
+    const BodyIndex i = id.index;
+    const BodyState bodies = w.bodies.state();
+    const auto wakeOther = [&](const Contact& contact) {
+        // Slots that were removed and filled again since the last step do not know these contacts.
+        const BodyIndex other = contact.a == i ? contact.b : contact.a;
+        if (contact.a != i && contact.b != i) return;
+        if (w.data.generation[i] != id.generation || w.data.generation[other] != w.bodies.generation[other]) return;
+        if (!bodies.isFixed(other)) bodies.wake(other, WakeReason::neighbour_removed);
+    };
+    // Contacts are listed of bodies that can move; of others there are few, or many that touch them.
+    if (bodies.isFixed(i)) {
+        for (const Contact& contact : w.data.contacts) wakeOther(contact);
+        return;
+    }
+    ContactsOfBodies& contacts_of = w.data.contacts_of;
+    if (contacts_of.begin.empty()) listContacts(w.bodies.kind, w.data.contacts, contacts_of);
+    if (i + 1 >= contacts_of.begin.size()) return;  // came after the last step
+    for (const std::uint32_t contact : contacts_of[i]) wakeOther(w.data.contacts[contact]);
+}
+
+/// Removes a spring or joint, if it is still that of a body, and wakes its other end.
+template <class Tie>
+void removeTie(Tie& tie, BodyIndex i, const BodyState& bodies) {
+    if (!tie.present || (tie.a != i && tie.b != i)) return;
+    const BodyIndex other = tie.a == i ? tie.b : tie.a;
+    // The world as an end is beyond all slots.
+    if (other < bodies.size() && !bodies.isFixed(other)) bodies.wake(other, WakeReason::changed);
+    tie.present = false;
+    ++tie.generation;
+}
+
 /// @throws InputError if a component is not finite or beyond the limit
 void requireWithin(const Vec3& value, double limit, std::string_view what, std::string_view unit) {
     if (value.allFinite() && value.cwiseAbs().maxCoeff() <= limit) return;
@@ -143,28 +176,10 @@ void World::removeBody(BodyId id) {
     WorldState& w = *state_;
     const BodyIndex i = w.bodies.indexOf(id);
     w.lasting.reset();
-    const BodyState bodies = w.bodies.state();
-    for (const Contact& contact : w.data.contacts) {
-        // Slots that were removed and filled again since the last step do not know these contacts.
-        const BodyIndex other = contact.a == i ? contact.b : contact.a;
-        if (contact.a != i && contact.b != i) continue;
-        if (w.data.generation[i] != id.generation || w.data.generation[other] != w.bodies.generation[other]) continue;
-        if (!bodies.isFixed(other)) bodies.wake(other, WakeReason::neighbour_removed);
-    }
-    for (Spring& spring : w.springs) {
-        if (!spring.present || (spring.a != i && spring.b != i)) continue;
-        const BodyIndex other = spring.a == i ? spring.b : spring.a;
-        if (other != Spring::world_point && !bodies.isFixed(other)) bodies.wake(other, WakeReason::changed);
-        spring.present = false;
-        ++spring.generation;
-    }
-    for (Joint& joint : w.joints) {
-        if (!joint.present || (joint.a != i && joint.b != i)) continue;
-        const BodyIndex other = joint.a == i ? joint.b : joint.a;
-        if (other != Joint::world && !bodies.isFixed(other)) bodies.wake(other, WakeReason::changed);
-        joint.present = false;
-        ++joint.generation;
-    }
+    wakeTouching(w, id);
+    w.ties.list(w.springs, w.joints, w.bodies.slots());
+    for (const std::uint32_t slot : w.ties.springsOf(i)) removeTie(w.springs[slot], i, w.bodies.state());
+    for (const std::uint32_t slot : w.ties.jointsOf(i)) removeTie(w.joints[slot], i, w.bodies.state());
     w.memory.forget(i);
     w.bodies.release(i);
 }

@@ -185,6 +185,7 @@ JointId World::addJoint(const JointDescription& d) {
     joint.break_torque = d.break_torque;
     joint.collide = d.collide;
     w.joints[slot] = joint;
+    w.ties.forget();
     wakeEnds(w.bodies, joint);
     return {slot, joint.generation};
 }

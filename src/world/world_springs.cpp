@@ -71,6 +71,7 @@ SpringId World::addSpring(const SpringDescription& d) {
               .stiffness = d.stiffness,
               .damping = d.damping,
               .rest_length = d.rest_length};
+    w.ties.forget();
     wakeEnds(w.bodies, spring);
     return {slot, spring.generation};
 }

@@ -22,6 +22,7 @@
 #include "persistence/contact_memory.h"
 #include "resolution/resolution.h"
 #include "world/found_contacts.h"
+#include "world/ties.h"
 
 namespace cairn {
 
@@ -143,6 +144,7 @@ struct WorldState {
     BodyStorage bodies;
     std::vector<Spring> springs;
     std::vector<Joint> joints;
+    TiesOfBodies ties;  ///< lists of both
     JointGrouping joint_grouping;
     JointFlight joint_flight;
     Vec3 gravity = Vec3::Zero();              ///< [m/s², W]
