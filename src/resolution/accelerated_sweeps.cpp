@@ -77,7 +77,9 @@ bool isMoving(const BatchView& batch, std::span<const Contact> contacts, const B
 ///         force problems, The Visual Computer 26 (2010), doi:10.1007/s00371-010-0502-6
 class AcceleratedSweepsResolution final : public Resolution {
   public:
-    std::size_t sharedFrom() const override { return shared_contacts; }
+    bool wantsAllThreads(const BatchView& batch, std::span<const Contact> contacts) const override {
+        return batch.contacts.size() >= shared_contacts && !needsFrames(batch, contacts);
+    }
 
     ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
                              const ResolutionSettings& settings, const Executor& executor) override {

@@ -52,7 +52,9 @@ class AwakePart final : public Resolution {
         return counts;
     }
 
-    std::size_t sharedFrom() const override { return resolution_->sharedFrom(); }
+    bool wantsAllThreads(const BatchView& batch, std::span<const Contact> contacts) const override {
+        return resolution_->wantsAllThreads(batch, contacts);
+    }
 
   private:
     static bool sleeps(const BodyState& bodies, BodyIndex i) { return bodies.asleep[i] != 0 && isAtRest(bodies, i); }

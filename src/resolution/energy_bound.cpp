@@ -34,7 +34,9 @@ class EnergyBound final : public Resolution {
         return counts;
     }
 
-    std::size_t sharedFrom() const override { return resolution_->sharedFrom(); }
+    bool wantsAllThreads(const BatchView& batch, std::span<const Contact> contacts) const override {
+        return resolution_->wantsAllThreads(batch, contacts);
+    }
 
   private:
     static bool isDriven(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {

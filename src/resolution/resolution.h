@@ -28,8 +28,8 @@ class Resolution {
     /// @param executor for algorithms that work on one batch with several threads
     virtual ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
                                      const ResolutionSettings& settings, const Executor& executor) = 0;
-    /// Batches with at least so many contacts want all threads for themselves; 0 = none does.
-    virtual std::size_t sharedFrom() const { return 0; }
+    /// Whether a batch is worth all threads together, and can be divided among them.
+    virtual bool wantsAllThreads(const BatchView&, std::span<const Contact>) const { return false; }
 };
 
 std::unique_ptr<Resolution> makeResolution(ResolutionKind kind);

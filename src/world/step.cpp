@@ -49,15 +49,17 @@ void measureIfAsked(WorldState& world, Measured point) {
     if (world.settings.diagnostics.diagnostics) measure(world, point);
 }
 
-/// Number of batches, at the beginning of the schedule, on which the resolution wants all threads together.
-std::size_t sharedBatches(const WorldState& world) {
-    const std::size_t from = world.resolutions.front()->sharedFrom();
-    const StepData& data = world.data;
-    std::size_t shared = 0;
-    while (from > 0 && shared < data.large_batches && data.batches[data.schedule[shared]].contacts.size() >= from) {
+/// Puts batches on which the resolution wants all threads together first in the schedule. @return their number
+std::size_t scheduleSharedFirst(WorldState& world) {
+    StepData& data = world.data;
+    const auto begin = data.schedule.begin();
+    std::ptrdiff_t shared = 0;
+    for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(data.large_batches); ++i) {
+        if (!world.resolutions.front()->wantsAllThreads(batchOf(world, begin[i]), data.contacts)) continue;
+        std::rotate(begin + shared, begin + i, begin + i + 1);
         ++shared;
     }
-    return shared;
+    return static_cast<std::size_t>(shared);
 }
 
 void buildBatchesStage(WorldState& world) {
@@ -186,7 +188,7 @@ void resolveStage(WorldState& world) {
         data.resolution_counts[t].shock_iterations += counts.shock_iterations;
         data.resolution_counts[t].shock_batches += counts.shock_batches;
     };
-    const std::size_t shared = sharedBatches(world);
+    const std::size_t shared = scheduleSharedFirst(world);
     for (std::size_t i = 0; i < shared; ++i) resolve(data.schedule[i], 0, world.executor);
     const Executor alone;
     forBatches(data, shared, world.executor, [&](std::uint32_t batch, int thread) { resolve(batch, thread, alone); });
