@@ -58,7 +58,8 @@ std::size_t countLost(const SceneRun& run) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const BodyId id = run.ids()[i];
         if (bodies[i].fixed || !world.contains(id)) continue;
-        const Vec3 p_W = world.pose(id).position;
+        // The origin of a shape's frame may lie outside of the shape.
+        const Vec3 p_W = world.centreOfMass(id);
         const bool faulty = std::any_of(world.faults().begin(), world.faults().end(),
                                         [&](const FaultInfo& fault) { return fault.body == id; });
         const bool behind =

@@ -237,6 +237,17 @@ TEST_F(CommandLine, outputsThatCannotBeWrittenEndTheRun) {
     EXPECT_NE(full.error.find("/dev/full: cannot be written: No space left"), std::string::npos) << full.error;
 }
 
+/// A hull whose points all lie above the origin of their frame stands on the ground, with that origin below it.
+TEST_F(CommandLine, aHullIsNotLostWhereTheOriginOfItsFrameIs) {
+    write("hull.json", R"({"name":"hull","duration":0.1,"gravity":[0,0,-10],"materials":{"oak":{"density":800}},
+        "bodies":[{"shape":{"type":"half_space","normal":[0,0,1],"offset":0},"material":"oak","fixed":true},
+          {"shape":{"type":"hull","points":[[0,0,0.3],[1,0,0.3],[0,1,0.3],[0,0,1.3]]},"material":"oak",
+           "position":[0,0,-0.3]}]})");
+    const Finished done = cairn({"run", "hull.json", "--threads", "1", "--json"});
+    EXPECT_EQ(done.code, 0) << done.error;
+    EXPECT_EQ(json::parse(done.out)["lost"], 0);
+}
+
 TEST_F(CommandLine, aBodyThatBecomesNonFiniteEndsTheRunAndKeepsTheRecording) {
     Scene scene = builtInScene("tower:2");
     scene.bodies[2].name = "victim";
