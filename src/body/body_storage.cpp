@@ -22,27 +22,17 @@ BodyIndex BodyStorage::allocate(BodyKind new_kind) {
     BodyIndex i = 0;
     if (holes_.empty()) {
         i = static_cast<BodyIndex>(kind.size());
-        const auto addSlot = [n = kind.size() + 1](auto&... arrays) { (resizeTightly(arrays, n), ...); };
-        addSlot(kind, generation, shape, material, name, position, orientation, v, w, p_BS, R_BS, mass, inertia_B,
-                mass_inv, inertiaInv_B, inertiaInv_W, r_max, linear_step, force, torque, constant_force,
-                constant_torque, asleep, resting, woken, motion, supports);
+        forEachBodyField([&](const auto& field) { resizeTightly(this->*field.array, std::size_t{i} + 1); });
     } else {
         std::pop_heap(holes_.begin(), holes_.end(), std::greater<>());
         i = holes_.back();
         holes_.pop_back();
     }
+    forEachBodyField([&](const auto& field) {
+        if (field.initial != nullptr) (this->*field.array)[i] = field.initial();
+    });
     kind[i] = new_kind;
-    position[i] = v[i] = w[i] = linear_step[i] = Vec3::Zero();
-    force[i] = torque[i] = constant_force[i] = constant_torque[i] = Vec3::Zero();
-    orientation[i] = R_BS[i] = Quat::Identity();
-    p_BS[i] = Vec3::Zero();
-    inertiaInv_B[i] = inertia_B[i] = Vec3::Zero();
-    inertiaInv_W[i] = Mat3::Zero();
-    mass[i] = mass_inv[i] = r_max[i] = motion[i] = 0;
-    asleep[i] = 0;
-    resting[i] = 0;
-    woken[i] = WakeReason::none;
-    supports[i] = -1;
+    number[i] = next_number_++;
     ++count_;
     return i;
 }
@@ -59,7 +49,8 @@ void BodyStorage::release(BodyIndex i) {
     --count_;
 }
 
-void BodyStorage::adoptSlots() {
+void BodyStorage::adoptSlots(std::uint64_t next_number) {
+    next_number_ = next_number;
     holes_.clear();
     for (BodyIndex i = 0; i < slots(); ++i) {
         // Ascending order is a min-heap.

@@ -4,20 +4,11 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "cairn/events.h"
-#include "cairn/shape.h"
-#include "cairn/types.h"
+#include "body/body_fields.h"
 
 namespace cairn {
-
-/// Index of a body's slot.
-using BodyIndex = std::uint32_t;
-
-/// What a slot holds.
-enum class BodyKind : std::uint8_t { hole, fixed, dynamic };
 
 /// The state of bodies that the response reads and writes; knows nothing of shapes. All spans have one entry per slot.
 struct BodyState {
@@ -49,35 +40,8 @@ struct BodyState {
 };
 
 /// All bodies of a world.
-class BodyStorage {
+class BodyStorage : public BodyArrays {
   public:
-    // One entry per slot; a hole's entries are those of its last body, its kind is hole.
-    std::vector<BodyKind> kind;
-    std::vector<std::uint32_t> generation;
-    std::vector<Shape> shape;
-    std::vector<std::uint32_t> material;
-    std::vector<std::string> name;
-    std::vector<Vec3> position;       ///< centre of mass [m, W]
-    std::vector<Quat> orientation;    ///< B to W
-    std::vector<Vec3> v;              ///< [m/s, W]
-    std::vector<Vec3> w;              ///< [rad/s, W]
-    std::vector<Vec3> p_BS;           ///< origin of the shape's frame S, which World::pose() is about [m, B]
-    std::vector<Quat> R_BS;           ///< S to B
-    std::vector<double> mass;         ///< [kg], of the description also for fixed bodies
-    std::vector<Vec3> inertia_B;      ///< principal moments [kg·m², B]
-    std::vector<double> mass_inv;     ///< [1/kg]; 0 = fixed
-    std::vector<Vec3> inertiaInv_B;   ///< [1/(kg·m²), B]; 0 = fixed
-    std::vector<Mat3> inertiaInv_W;   ///< [1/(kg·m²), W]; follows the orientation
-    std::vector<double> r_max;        ///< largest distance of a surface point from the centre [m]
-    std::vector<Vec3> linear_step;    ///< ℓ: displacement by the linear velocity in this time step [m, W]
-    std::vector<Vec3> force, torque;  ///< for the next step [N], [N·m, W]
-    std::vector<Vec3> constant_force, constant_torque;  ///< in every step [N], [N·m, W]
-    std::vector<std::uint8_t> asleep;                   ///< 1 = asleep
-    std::vector<std::uint8_t> resting;                  ///< 1 = awake, but nothing changed since it came to rest
-    std::vector<WakeReason> woken;                      ///< why it woke in this step
-    std::vector<double> motion;          ///< rwa: recency-weighted average of the squared motion [m²/s²] (3.2.4)
-    std::vector<std::int32_t> supports;  ///< contacts in the direction of gravity in the last step; −1 = unknown
-
     /// The pose of the shape's frame S in B, and in W.
     Pose shapeInBody(BodyIndex i) const { return {p_BS[i], R_BS[i]}; }
     Pose shapePose(BodyIndex i) const { return Pose{position[i], orientation[i]}.toOuter(shapeInBody(i)); }
@@ -97,11 +61,14 @@ class BodyStorage {
     /// @throws StaleIdError
     BodyIndex indexOf(BodyId id) const;
 
-    /// Takes the lowest hole or appends a slot, every entry reset. The caller fills it.
+    /// Takes the lowest hole or appends a slot, every entry reset, with the next number. The caller fills it.
     BodyIndex allocate(BodyKind new_kind);
     void release(BodyIndex i);
     /// Finds the holes and the count anew. @pre every array has one entry per slot; call it after replacing them
-    void adoptSlots();
+    /// @param next_number above the number of every body
+    void adoptSlots(std::uint64_t next_number);
+    /// The number of the body that is added next.
+    std::uint64_t nextNumber() const { return next_number_; }
     /// Sets the inverse mass properties from mass, inertia_B, kind and orientation.
     void updateMassProperties(BodyIndex i);
     BodyState state();
@@ -109,6 +76,7 @@ class BodyStorage {
   private:
     std::vector<BodyIndex> holes_;  ///< min-heap
     std::size_t count_ = 0;
+    std::uint64_t next_number_ = 0;
 };
 
 }  // namespace cairn

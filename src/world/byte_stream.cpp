@@ -9,7 +9,7 @@ namespace cairn {
 
 namespace {
 
-constexpr std::array<char, 8> magic = {'C', 'A', 'I', 'R', 'N', 'S', 'N', 'P'};
+constexpr std::array<char, 8> magic = {'C', 'A', 'I', 'R', 'N', 'S', 'A', 'V'};
 /// Bytes that share one checksum: small enough that an offset helps, large enough that checksums do not count.
 constexpr std::size_t block_size = std::size_t{64} * 1024;
 
@@ -98,10 +98,17 @@ ByteReader::ByteReader(std::span<const std::byte> bytes, FrameKind kind, std::st
             fmt::format("{} is truncated at byte {}: its head alone has {} bytes", source_, bytes.size(), sizeof head));
     }
     std::memcpy(&head, bytes.data(), sizeof head);
-    if (head.magic != magic) throw InputError(fmt::format("{} is not a snapshot: byte 0 does not begin one", source_));
-    if (head.version > snapshot_version || head.version == 0) {
-        throw InputError(fmt::format("{} has version {} (byte 12); this program reads versions 1 to {}", source_,
-                                     head.version, snapshot_version));
+    if (head.magic != magic) {
+        throw InputError(
+            fmt::format("{} is not a snapshot: byte 0 does not begin one; if an earlier Cairn wrote it, "
+                        "use that one or run the scene again",
+                        source_));
+    }
+    if (head.version != snapshot_version) {
+        throw InputError(
+            fmt::format("{} has version {} (byte 12); this program reads version {}: use the Cairn that "
+                        "wrote it or run the scene again",
+                        source_, head.version, snapshot_version));
     }
     if (head.check != headCheck(head)) throw InputError(fmt::format("{} is damaged within bytes 8 and 32", source_));
     if (head.kind != static_cast<std::uint32_t>(kind)) {
@@ -118,7 +125,6 @@ ByteReader::ByteReader(std::span<const std::byte> bytes, FrameKind kind, std::st
     if (const std::size_t end = sizeof head + head.content + blocks * sizeof(std::uint64_t); end != bytes.size()) {
         throw InputError(fmt::format("{} has {} bytes, but ends at byte {}", source_, bytes.size(), end));
     }
-    version_ = head.version;
     bytes_ = bytes.first(sizeof head + head.content);
     at_ = sizeof head;
     for (std::size_t i = 0; i < blocks; ++i) {

@@ -66,10 +66,8 @@ class ByteWriter {
 class ByteReader {
   public:
     /// @param source shown in messages, such as "snapshot" or a file name
-    /// @throws InputError if the bytes are truncated, damaged, of another kind or of a newer version
+    /// @throws InputError if the bytes are truncated, damaged, of another kind or of another version
     ByteReader(std::span<const std::byte> bytes, FrameKind kind, std::string source);
-
-    std::uint32_t version() const { return version_; }
 
     template <PlainBytes T>
     T get() {
@@ -111,7 +109,6 @@ class ByteReader {
     std::span<const std::byte> bytes_;
     std::string source_;
     std::size_t at_ = 0;
-    std::uint32_t version_ = 0;
 };
 
 /// Writes the head of a frame over its first bytes. For tests that change what is behind it.
@@ -120,7 +117,7 @@ void sealFrame(std::span<std::byte> frame, FrameKind kind, std::uint32_t version
 /// Bytes of the head of a frame with so many bytes behind it.
 std::size_t frameHeadSize();
 
-/// The version of the format that is written.
-inline constexpr std::uint32_t snapshot_version = 6;
+/// The version of the format that is written and read.
+inline constexpr std::uint32_t snapshot_version = 1;
 
 }  // namespace cairn

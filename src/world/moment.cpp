@@ -8,22 +8,11 @@ namespace cairn {
 
 namespace {
 
-// A new array of the bodies belongs into one of the two lists below; linear_step, which every step computes anew, is in
-// neither. 27 arrays and the holes are vectors.
-static_assert(sizeof(BodyStorage) == 28 * sizeof(std::vector<Vec3>) + sizeof(std::size_t));
-
-/// Arrays that steps change, of the bodies or of a moment.
-template <class Part>
-auto movingArrays(Part& p) {
-    return std::tie(p.position, p.orientation, p.v, p.w, p.inertiaInv_W, p.force, p.torque, p.asleep, p.resting,
-                    p.woken, p.motion, p.supports);
-}
-
-/// Arrays that steps never change, of the bodies or of a lasting part.
-template <class Part>
-auto lastingArrays(Part& p) {
-    return std::tie(p.kind, p.generation, p.shape, p.material, p.name, p.p_BS, p.R_BS, p.mass, p.mass_inv, p.r_max,
-                    p.inertia_B, p.inertiaInv_B, p.constant_force, p.constant_torque);
+/// Copies the fields that the same thing changes.
+void copyFields(Change change, const BodyArrays& from, BodyArrays& to) {
+    forEachBodyField([&](const auto& field) {
+        if (field.change == change) to.*field.array = from.*field.array;
+    });
 }
 
 /// Members that a moment has under the names of the world.
@@ -36,7 +25,8 @@ auto sharedNames(Part& p) {
 std::shared_ptr<const LastingPart> lastingPartOf(const WorldState& world) {
     auto part = std::make_shared<LastingPart>();
     part->materials = world.materials;
-    lastingArrays(*part) = lastingArrays(world.bodies);
+    copyFields(Change::calls, world.bodies, part->bodies);
+    part->next_number = world.bodies.nextNumber();
     return part;
 }
 
@@ -46,7 +36,7 @@ void keepMoment(WorldState& world, MomentState& moment) {
     if (world.lasting == nullptr) world.lasting = lastingPartOf(world);
     moment.lasting = world.lasting;
     moment.settings = world.settings;
-    movingArrays(moment) = movingArrays(world.bodies);
+    copyFields(Change::steps, world.bodies, moment.bodies);
     sharedNames(moment) = sharedNames(world);
     moment.contact_generation = world.data.generation;
     moment.contacts = world.data.contacts;
@@ -59,12 +49,12 @@ void loadMoment(const MomentState& moment, WorldState& world) {
     world.applySettings(moment.settings);
     if (world.lasting != moment.lasting) {
         world.materials = moment.lasting->materials;
-        lastingArrays(world.bodies) = lastingArrays(*moment.lasting);
+        copyFields(Change::calls, moment.lasting->bodies, world.bodies);
         world.bodies.linear_step.assign(world.bodies.slots(), Vec3::Zero());
-        world.bodies.adoptSlots();
+        world.bodies.adoptSlots(moment.lasting->next_number);
         world.lasting = moment.lasting;
     }
-    movingArrays(world.bodies) = movingArrays(moment);
+    copyFields(Change::steps, moment.bodies, world.bodies);
     sharedNames(world) = sharedNames(moment);
     world.data.generation = moment.contact_generation;
     world.data.contacts = moment.contacts;

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "world/world_state.h"
@@ -14,32 +13,15 @@ namespace cairn {
 /// What only calls from outside and faults change; whoever changes it clears WorldState::lasting.
 struct LastingPart {
     MaterialTable materials;
-    // The arrays of BodyStorage with these names.
-    std::vector<BodyKind> kind;
-    std::vector<std::uint32_t> generation;
-    std::vector<Shape> shape;
-    std::vector<std::uint32_t> material;
-    std::vector<std::string> name;
-    std::vector<Vec3> p_BS;
-    std::vector<Quat> R_BS;
-    std::vector<double> mass, mass_inv, r_max;
-    std::vector<Vec3> inertia_B, inertiaInv_B, constant_force, constant_torque;
+    BodyArrays bodies;  ///< the fields that calls change; the others are empty
+    std::uint64_t next_number = 0;
 };
 
 /// The rest, with the part that it shares.
 struct MomentState {
     std::shared_ptr<const LastingPart> lasting;
     Settings settings;
-    // The arrays of BodyStorage with these names.
-    std::vector<Vec3> position, v, w, force, torque;
-    std::vector<Quat> orientation;
-    std::vector<Mat3> inertiaInv_W;
-    std::vector<std::uint8_t> asleep;
-    std::vector<std::uint8_t> resting;
-    std::vector<WakeReason> woken;
-    std::vector<double> motion;
-    std::vector<std::int32_t> supports;
-
+    BodyArrays bodies;  ///< the fields that steps change; the others are empty
     std::vector<Spring> springs;
     std::vector<Joint> joints;
     Vec3 gravity, global_acceleration;

@@ -1,8 +1,9 @@
 /// @file The fields of a snapshot, each list written once for saving and loading. Their order is the format: changing
-/// one needs a new snapshot_version, and the old list for old versions.
+/// one needs another snapshot_version. Those of bodies stand in body_fields.
 #pragma once
 
 #include "world/byte_stream.h"
+#include "world/saved_shapes.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -30,7 +31,7 @@ void array(ByteReader& in, std::vector<T>& values) {
     in.getArray(values);
 }
 
-/// An array with one entry per slot.
+// An array with one entry per slot.
 template <PlainBytes T>
 void slotArray(ByteWriter& out, const std::vector<T>& values, std::size_t) {
     out.putArray(std::span<const T>(values));
@@ -38,6 +39,20 @@ void slotArray(ByteWriter& out, const std::vector<T>& values, std::size_t) {
 template <PlainBytes T>
 void slotArray(ByteReader& in, std::vector<T>& values, std::size_t slots) {
     in.getArray(values, slots);
+}
+inline void slotArray(ByteWriter& out, const std::vector<Shape>& shapes, std::size_t) {
+    for (const Shape& shape : shapes) saveShape(shape, out);
+}
+inline void slotArray(ByteReader& in, std::vector<Shape>& shapes, std::size_t slots) {
+    shapes.resize(slots);
+    for (Shape& shape : shapes) shape = loadShape(in);
+}
+inline void slotArray(ByteWriter& out, const std::vector<std::string>& names, std::size_t) {
+    for (const std::string& name : names) out.putText(name);
+}
+inline void slotArray(ByteReader& in, std::vector<std::string>& names, std::size_t slots) {
+    names.resize(slots);
+    for (std::string& name : names) name = in.getText();
 }
 
 /// The count, then every element.
@@ -49,27 +64,13 @@ void saveList(ByteWriter& out, const List& list, const SaveElement& save) {
 
 // Each Stream is a ByteWriter with a const object or a ByteReader with one to fill.
 
-/// Since version 4.
-template <class Pair>
-void rollingFields(ByteWriter& out, const Pair& pair) {
-    field(out, pair.rolling_friction);
-    field(out, pair.spinning_friction);
-}
-template <class Pair>
-void rollingFields(ByteReader& in, Pair& pair) {
-    pair.rolling_friction = 0;
-    pair.spinning_friction = 0;
-    if (in.version() < 4) return;
-    field(in, pair.rolling_friction);
-    field(in, pair.spinning_friction);
-}
-
 template <class Stream, class Pair>
 void pairFields(Stream& stream, Pair& pair) {
     field(stream, pair.restitution);
     field(stream, pair.static_friction);
     field(stream, pair.kinetic_friction);
-    rollingFields(stream, pair);
+    field(stream, pair.rolling_friction);
+    field(stream, pair.spinning_friction);
 }
 
 template <class Stream, class World>
@@ -82,58 +83,11 @@ void worldFields(Stream& stream, World& world) {
     field(stream, world.time_at_start);
 }
 
-/// Since version 2; before it every shape's frame was that of its body.
-template <class Bodies>
-void shapeFrames(ByteWriter& out, const Bodies& bodies, std::size_t slots) {
-    slotArray(out, bodies.p_BS, slots);
-    slotArray(out, bodies.R_BS, slots);
-}
-template <class Bodies>
-void shapeFrames(ByteReader& in, Bodies& bodies, std::size_t slots) {
-    bodies.p_BS.assign(slots, Vec3::Zero());
-    bodies.R_BS.assign(slots, Quat::Identity());
-    if (in.version() < 2) return;
-    slotArray(in, bodies.p_BS, slots);
-    slotArray(in, bodies.R_BS, slots);
-}
-
-/// Since version 6; before it no body rested.
-template <class Bodies>
-void resting(ByteWriter& out, const Bodies& bodies, std::size_t slots) {
-    slotArray(out, bodies.resting, slots);
-}
-template <class Bodies>
-void resting(ByteReader& in, Bodies& bodies, std::size_t slots) {
-    bodies.resting.assign(slots, 0);
-    if (in.version() >= 6) slotArray(in, bodies.resting, slots);
-}
-
-/// Left out: shape and name, which are no plain numbers, and linear_step, which every step computes anew.
 template <class Stream, class Bodies>
-void bodyArrays(Stream& stream, Bodies& bodies, std::size_t slots) {
-    slotArray(stream, bodies.kind, slots);
-    slotArray(stream, bodies.generation, slots);
-    slotArray(stream, bodies.material, slots);
-    slotArray(stream, bodies.position, slots);
-    slotArray(stream, bodies.orientation, slots);
-    slotArray(stream, bodies.v, slots);
-    slotArray(stream, bodies.w, slots);
-    slotArray(stream, bodies.mass, slots);
-    slotArray(stream, bodies.inertia_B, slots);
-    slotArray(stream, bodies.mass_inv, slots);
-    slotArray(stream, bodies.inertiaInv_B, slots);
-    slotArray(stream, bodies.inertiaInv_W, slots);
-    slotArray(stream, bodies.r_max, slots);
-    slotArray(stream, bodies.force, slots);
-    slotArray(stream, bodies.torque, slots);
-    slotArray(stream, bodies.constant_force, slots);
-    slotArray(stream, bodies.constant_torque, slots);
-    slotArray(stream, bodies.asleep, slots);
-    slotArray(stream, bodies.woken, slots);
-    slotArray(stream, bodies.motion, slots);
-    slotArray(stream, bodies.supports, slots);
-    shapeFrames(stream, bodies, slots);
-    resting(stream, bodies, slots);
+void bodyFields(Stream& stream, Bodies& bodies, std::size_t slots) {
+    forEachBodyField([&](const auto& row) {
+        if (row.isSaved()) slotArray(stream, bodies.*row.array, slots);
+    });
 }
 
 template <class Stream, class AnySpring>
@@ -173,16 +127,6 @@ void jointFields(Stream& stream, AnyJoint& joint) {
     field(stream, joint.angular_impulse);
 }
 
-/// Since version 4.
-template <class AnyContact>
-void turning(ByteWriter& out, const AnyContact& contact) {
-    field(out, contact.angular_impulse);
-}
-template <class AnyContact>
-void turning(ByteReader& in, AnyContact& contact) {
-    if (in.version() >= 4) field(in, contact.angular_impulse);
-}
-
 /// What World::contacts() shows and removeBody() needs; the rest of a contact is of use within a step only.
 template <class Stream, class AnyContact>
 void contactFields(Stream& stream, AnyContact& contact) {
@@ -192,7 +136,7 @@ void contactFields(Stream& stream, AnyContact& contact) {
     field(stream, contact.normal);
     field(stream, contact.distance);
     field(stream, contact.impulse);
-    turning(stream, contact);
+    field(stream, contact.angular_impulse);
 }
 
 template <class Stream, class AnyBatches>
@@ -204,17 +148,6 @@ void batchArrays(Stream& stream, AnyBatches& batches) {
     array(stream, batches.batch_of_contact);
 }
 
-/// Since version 5.
-template <class Entry>
-void referenceImpulse(ByteWriter& out, const Entry& entry) {
-    field(out, entry.reference_impulse);
-}
-template <class Entry>
-void referenceImpulse(ByteReader& in, Entry& entry) {
-    entry.reference_impulse = entry.impulse;
-    if (in.version() >= 5) field(in, entry.reference_impulse);
-}
-
 template <class Stream, class Entry>
 void memoryFields(Stream& stream, Entry& entry) {
     field(stream, entry.a);
@@ -222,10 +155,9 @@ void memoryFields(Stream& stream, Entry& entry) {
     field(stream, entry.place_a);
     field(stream, entry.place_b);
     field(stream, entry.impulse);
-    referenceImpulse(stream, entry);
+    field(stream, entry.reference_impulse);
 }
 
-/// Since version 4.
 template <class AnyDiagnostics>
 void diagnosticsFields(ByteWriter& out, const AnyDiagnostics& diagnostics) {
     Diagnostics copy = diagnostics;
@@ -233,7 +165,6 @@ void diagnosticsFields(ByteWriter& out, const AnyDiagnostics& diagnostics) {
 }
 template <class AnyDiagnostics>
 void diagnosticsFields(ByteReader& in, AnyDiagnostics& diagnostics) {
-    if (in.version() < 4) return;
     for (const DiagnosticsField& f : cairn::diagnosticsFields()) f.of(diagnostics) = in.get<double>();
 }
 
@@ -257,19 +188,6 @@ void statisticsFields(Stream& stream, AnyStatistics& statistics) {
     diagnosticsFields(stream, statistics.diagnostics);
 }
 
-/// Since version 3.
-template <class AnyEvent>
-void eventJoint(ByteWriter& out, const AnyEvent& event) {
-    out.put(event.joint.index);
-    out.put(event.joint.generation);
-}
-template <class AnyEvent>
-void eventJoint(ByteReader& in, AnyEvent& event) {
-    if (in.version() < 3) return;
-    event.joint.index = in.get<std::uint32_t>();
-    event.joint.generation = in.get<std::uint32_t>();
-}
-
 template <class Stream, class AnyEvent>
 void eventFields(Stream& stream, AnyEvent& event) {
     field(stream, event.kind);
@@ -283,7 +201,8 @@ void eventFields(Stream& stream, AnyEvent& event) {
     field(stream, event.normal);
     field(stream, event.distance);
     field(stream, event.impulse);
-    eventJoint(stream, event);
+    field(stream, event.joint.index);
+    field(stream, event.joint.generation);
 }
 
 }  // namespace cairn

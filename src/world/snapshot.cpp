@@ -9,7 +9,6 @@
 #include "math/rotation.h"
 #include "world/quarantine.h"
 #include "world/saved_fields.h"
-#include "world/saved_shapes.h"
 
 namespace cairn {
 
@@ -43,30 +42,16 @@ SettingValue loadSettingValue(ByteReader& in) {
     }
 }
 
-/// What worlds did before there was a setting for it, where that is not its default.
-Settings settingsOfTheFirstVersion() {
-    Settings settings;
-    settings.correction.spread_levels = 0;
-    settings.correction.correction_rounds = 1;
-    settings.resolution.moving_sweep_limit = settings.resolution.sweep_limit;
-    settings.resolution.small_sweep_part = 1;
-    settings.resolution.sliding_part = 1;
-    settings.resolution.direct_pairs = 0;
-    settings.resolution.visit_limit = 0;
-    settings.resolution.direct_limit = 0;
-    settings.resolution.wake_speed = 0;
-    settings.resolution.rest_speed = 0;
-    return settings;
-}
-
-/// Settings that are newer than the snapshot get the value that means what the world did without them.
 Settings loadSettings(ByteReader& in) {
-    Settings settings = settingsOfTheFirstVersion();
-    for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
-        const std::string name = in.getText();
+    constexpr std::string_view others =
+        "another setting than this program has: use the Cairn that wrote it or run the scene again";
+    Settings settings;
+    if (in.get<std::uint64_t>() != settingFields().size()) in.refuse(others);
+    for (const SettingField& field : settingFields()) {
+        if (in.getText() != field.name) in.refuse(others);
         const SettingValue value = loadSettingValue(in);
         try {
-            setField(settings, name, value);
+            setField(settings, field.name, value);
         } catch (const InputError& error) {
             in.refuse(error.what());
         }
@@ -136,9 +121,8 @@ void checkBody(const ByteReader& in, const BodyStorage& b, BodyIndex i, std::siz
 
 void saveBodies(const BodyStorage& b, ByteWriter& out) {
     out.put(std::uint64_t{b.slots()});
-    bodyArrays(out, b, b.slots());
-    for (const Shape& shape : b.shape) saveShape(shape, out);
-    for (const std::string& name : b.name) out.putText(name);
+    out.put(b.nextNumber());
+    bodyFields(out, b, b.slots());
 }
 
 /// Refuses inverse masses that are not those of the masses: the response would give energy without end.
@@ -161,21 +145,26 @@ void checkMassProperties(const ByteReader& in, const BodyStorage& b, BodyIndex i
     if (!fits) in.refuse(fmt::format("body {} with an inverse mass that is not that of its mass", i));
 }
 
+/// Refuses two slots with the same number, and numbers that a later body would get again.
+void checkNumbers(const ByteReader& in, std::vector<std::uint64_t> numbers, std::uint64_t next_number) {
+    std::ranges::sort(numbers);
+    const bool unique = std::ranges::adjacent_find(numbers) == numbers.end();
+    if (!unique || (!numbers.empty() && numbers.back() >= next_number)) in.refuse("two bodies with the same number");
+}
+
 void loadBodies(ByteReader& in, std::size_t materials, BodyStorage& b) {
     const auto slots = in.get<std::uint64_t>();
-    bodyArrays(in, b, slots);
+    const auto next_number = in.get<std::uint64_t>();
+    bodyFields(in, b, slots);
     if (std::ranges::any_of(b.kind, [](BodyKind kind) { return kind > BodyKind::dynamic; }) ||
         std::ranges::any_of(b.woken, [](WakeReason reason) { return reason > WakeReason::floating; }) ||
         std::ranges::any_of(b.asleep, [](std::uint8_t asleep) { return asleep > 1; }) ||
         std::ranges::any_of(b.resting, [](std::uint8_t resting) { return resting > 1; })) {
         in.refuse("an unknown state of a body");
     }
-    b.shape.resize(slots);
-    for (Shape& shape : b.shape) shape = loadShape(in);
-    b.name.resize(slots);
-    for (std::string& name : b.name) name = in.getText();
+    checkNumbers(in, b.number, next_number);
     b.linear_step.assign(slots, Vec3::Zero());
-    b.adoptSlots();
+    b.adoptSlots(next_number);
     for (BodyIndex i = 0; i < slots; ++i) {
         if (b.kind[i] == BodyKind::hole) continue;
         checkBody(in, b, i, materials);
@@ -337,7 +326,7 @@ std::unique_ptr<WorldState> loadWorld(ByteReader& in) {
     worldFields(in, *world);
     loadBodies(in, world->materials.all().size(), world->bodies);
     loadSprings(in, world->bodies, world->springs);
-    if (in.version() >= 3) loadJoints(in, world->bodies, world->joints);
+    loadJoints(in, world->bodies, world->joints);
     loadContacts(in, world->data);
     loadMemory(in, world->bodies.slots(), world->memory);
     statisticsFields(in, world->statistics);

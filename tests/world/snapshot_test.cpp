@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -221,10 +222,19 @@ TEST(Snapshot, EveryFlippedByteIsNoticed) {
     EXPECT_NE(refusal(bytes).find("damaged within bytes 32 and "), std::string::npos) << refusal(bytes);
 }
 
-TEST(Snapshot, ANewerVersionIsRefusedByItsNumber) {
+TEST(Snapshot, AnotherVersionIsRefusedByItsNumberWithTheRemedy) {
     Bytes bytes = somePile();
-    sealFrame(bytes, FrameKind::world, snapshot_version + 1);
-    EXPECT_NE(refusal(bytes).find("has version " + std::to_string(snapshot_version + 1)), std::string::npos);
+    for (const std::uint32_t version : {0U, snapshot_version + 1}) {
+        sealFrame(bytes, FrameKind::world, version);
+        EXPECT_NE(refusal(bytes).find("has version " + std::to_string(version)), std::string::npos);
+        EXPECT_NE(refusal(bytes).find("use the Cairn that wrote it"), std::string::npos);
+    }
+}
+
+TEST(Snapshot, AFileOfAnotherKindIsRefusedWithTheRemedy) {
+    Bytes bytes = somePile();
+    std::memcpy(bytes.data(), "CAIRNSNP", 8);  // how snapshots began before version 1 began again
+    EXPECT_NE(refusal(bytes).find("use that one or run the scene again"), std::string::npos) << refusal(bytes);
 }
 
 TEST(Snapshot, NonsenseBehindARightChecksumIsRefusedOrHarmless) {

@@ -1,0 +1,141 @@
+/// @file The one list of a body's fields. Storage, growth, reset, snapshots and rollback follow it; so a new field is a
+/// member of BodyArrays and a row of body_fields.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "cairn/events.h"
+#include "cairn/shape.h"
+#include "cairn/types.h"
+
+namespace cairn {
+
+/// Index of a body's slot.
+using BodyIndex = std::uint32_t;
+
+/// What a slot holds.
+enum class BodyKind : std::uint8_t { hole, fixed, dynamic };
+
+/// Structure of arrays with one entry per slot; a hole's entries are those of its last body, its kind is hole.
+struct BodyArrays {
+    std::vector<BodyKind> kind;
+    std::vector<std::uint32_t> generation;  ///< how often a body left the slot
+    std::vector<std::uint64_t> number;      ///< of the body in its world, ascending as bodies are added; never reused
+    std::vector<Shape> shape;
+    std::vector<std::uint32_t> material;
+    std::vector<std::string> name;
+    std::vector<Vec3> position;       ///< centre of mass [m, W]
+    std::vector<Quat> orientation;    ///< B to W
+    std::vector<Vec3> v;              ///< [m/s, W]
+    std::vector<Vec3> w;              ///< [rad/s, W]
+    std::vector<Vec3> p_BS;           ///< origin of the shape's frame S, which World::pose() is about [m, B]
+    std::vector<Quat> R_BS;           ///< S to B
+    std::vector<double> mass;         ///< [kg], of the description also for fixed bodies
+    std::vector<Vec3> inertia_B;      ///< principal moments [kg·m², B]
+    std::vector<double> mass_inv;     ///< [1/kg]; 0 = fixed
+    std::vector<Vec3> inertiaInv_B;   ///< [1/(kg·m²), B]; 0 = fixed
+    std::vector<Mat3> inertiaInv_W;   ///< [1/(kg·m²), W]; follows the orientation
+    std::vector<double> r_max;        ///< largest distance of a surface point from the centre [m]
+    std::vector<Vec3> linear_step;    ///< ℓ: displacement by the linear velocity in this time step [m, W]
+    std::vector<Vec3> force, torque;  ///< for the next step [N], [N·m, W]
+    std::vector<Vec3> constant_force, constant_torque;  ///< in every step [N], [N·m, W]
+    std::vector<std::uint8_t> asleep;                   ///< 1 = asleep
+    std::vector<std::uint8_t> resting;                  ///< 1 = awake, but nothing changed since it came to rest
+    std::vector<WakeReason> woken;                      ///< why it woke in this step
+    std::vector<double> motion;          ///< rwa: recency-weighted average of the squared motion [m²/s²] (3.2.4)
+    std::vector<std::int32_t> supports;  ///< contacts in the direction of gravity in the last step; −1 = unknown
+};
+
+/// What changes a field.
+enum class Change : std::uint8_t {
+    calls,  ///< calls from outside and faults only: it lasts over many steps
+    steps,  ///< steps
+    anew,   ///< every step computes it before reading it, so it is no part of the state and is not saved
+};
+
+/// When somebody else who holds a copy of the body needs the field.
+enum class Sync : std::uint8_t {
+    always,        ///< after every stage that writes it
+    on_creation,   ///< when the copy is made, and after calls that change the field
+    on_migration,  ///< only when the body gets another owner
+    never,         ///< each holder computes it
+};
+
+/// The value of a field of a new body unless its row says otherwise.
+template <class Type>
+Type blank() {
+    if constexpr (std::is_same_v<Type, Quat>) {
+        return Quat::Identity();
+    } else if constexpr (std::is_same_v<Type, Vec3> || std::is_same_v<Type, Mat3>) {
+        return Type::Zero();
+    } else {
+        return Type{};
+    }
+}
+
+/// A row of the list.
+template <class Type>
+struct BodyField {
+    using Initial = Type (*)();
+
+    constexpr BodyField(std::vector<Type> BodyArrays::*of, std::string_view called, std::string_view in,
+                        Change changed_by, Sync synced, std::type_identity_t<Initial> begins_with = &blank<Type>)
+        : array(of), name(called), unit(in), change(changed_by), sync(synced), initial(begins_with) {}
+
+    constexpr bool isSaved() const { return change != Change::anew; }
+
+    std::vector<Type> BodyArrays::*array;
+    std::string_view name;
+    std::string_view unit;  ///< SI; 1 = a number without unit, empty = no number
+    Change change;
+    Sync sync;
+    Initial initial;  ///< of a body that takes a slot; null = the slot keeps the field
+};
+
+/// All fields, in the order of snapshots: changing order or rows needs another snapshot_version.
+inline constexpr auto body_fields = std::tuple{
+    BodyField{&BodyArrays::kind, "kind", "", Change::calls, Sync::on_creation},
+    BodyField{&BodyArrays::generation, "generation", "1", Change::calls, Sync::on_creation, nullptr},
+    BodyField{&BodyArrays::number, "number", "1", Change::calls, Sync::on_creation},
+    BodyField{&BodyArrays::shape, "shape", "", Change::calls, Sync::on_creation},
+    BodyField{&BodyArrays::material, "material", "", Change::calls, Sync::on_creation},
+    BodyField{&BodyArrays::name, "name", "", Change::calls, Sync::on_migration},
+    BodyField{&BodyArrays::position, "position", "m", Change::steps, Sync::always},
+    BodyField{&BodyArrays::orientation, "orientation", "1", Change::steps, Sync::always},
+    BodyField{&BodyArrays::v, "v", "m/s", Change::steps, Sync::always},
+    BodyField{&BodyArrays::w, "w", "rad/s", Change::steps, Sync::always},
+    BodyField{&BodyArrays::p_BS, "p_BS", "m", Change::calls, Sync::on_creation},
+    BodyField{&BodyArrays::R_BS, "R_BS", "1", Change::calls, Sync::on_creation},
+    BodyField{&BodyArrays::mass, "mass", "kg", Change::calls, Sync::on_creation},
+    BodyField{&BodyArrays::inertia_B, "inertia_B", "kg·m²", Change::calls, Sync::on_creation},
+    BodyField{&BodyArrays::mass_inv, "mass_inv", "1/kg", Change::calls, Sync::on_creation},
+    BodyField{&BodyArrays::inertiaInv_B, "inertiaInv_B", "1/(kg·m²)", Change::calls, Sync::on_creation},
+    BodyField{&BodyArrays::inertiaInv_W, "inertiaInv_W", "1/(kg·m²)", Change::steps, Sync::always},
+    BodyField{&BodyArrays::r_max, "r_max", "m", Change::calls, Sync::on_creation},
+    BodyField{&BodyArrays::linear_step, "linear_step", "m", Change::anew, Sync::always},
+    BodyField{&BodyArrays::force, "force", "N", Change::steps, Sync::on_migration},
+    BodyField{&BodyArrays::torque, "torque", "N·m", Change::steps, Sync::on_migration},
+    BodyField{&BodyArrays::constant_force, "constant_force", "N", Change::calls, Sync::on_migration},
+    BodyField{&BodyArrays::constant_torque, "constant_torque", "N·m", Change::calls, Sync::on_migration},
+    BodyField{&BodyArrays::asleep, "asleep", "", Change::steps, Sync::always},
+    BodyField{&BodyArrays::resting, "resting", "", Change::steps, Sync::always},
+    BodyField{&BodyArrays::woken, "woken", "", Change::steps, Sync::on_migration},
+    BodyField{&BodyArrays::motion, "motion", "m²/s²", Change::steps, Sync::on_migration},
+    BodyField{&BodyArrays::supports, "supports", "1", Change::steps, Sync::on_migration, [] { return -1; }},
+};
+
+static_assert(sizeof(BodyArrays) == std::tuple_size_v<decltype(body_fields)> * sizeof(std::vector<Vec3>),
+              "a member of BodyArrays has no row in body_fields");
+
+/// Calls visit(const BodyField<Type>&) for every row.
+template <class Visit>
+constexpr void forEachBodyField(Visit&& visit) {
+    std::apply([&](const auto&... field) { (visit(field), ...); }, body_fields);
+}
+
+}  // namespace cairn
