@@ -61,6 +61,18 @@ void feedAll(std::uint64_t& hash, const Vector& values) {
     for (Eigen::Index i = 0; i < values.size(); ++i) feed(hash, std::bit_cast<std::uint64_t>(values[i] + 0.0));
 }
 
+/// Of one body, which its number names in whatever slot it is.
+std::uint64_t hashOf(const BodyStorage& b, BodyIndex i) {
+    std::uint64_t hash = 0;
+    feed(hash, b.number[i]);
+    feedAll(hash, b.position[i]);
+    feedAll(hash, b.orientation[i].coeffs());
+    feedAll(hash, b.v[i]);
+    feedAll(hash, b.w[i]);
+    feed(hash, std::uint64_t{b.asleep[i]});
+    return hash;
+}
+
 }  // namespace
 
 std::vector<ContactInfo> World::contacts() const {
@@ -149,17 +161,12 @@ Vec3 World::angularMomentum() const {
 
 std::uint64_t World::stateHash() const {
     const BodyStorage& b = state_->bodies;
-    std::uint64_t hash = 0;
+    // A sum, so that neither the order of the slots nor who holds a body matters.
+    std::uint64_t sum = 0;
     for (BodyIndex i = 0; i < b.slots(); ++i) {
-        if (b.kind[i] == BodyKind::hole) continue;
-        feed(hash, (std::uint64_t{i} << 32U) | b.generation[i]);
-        feedAll(hash, b.position[i]);
-        feedAll(hash, b.orientation[i].coeffs());
-        feedAll(hash, b.v[i]);
-        feedAll(hash, b.w[i]);
-        feed(hash, std::uint64_t{b.asleep[i]});
+        if (b.kind[i] != BodyKind::hole) sum += hashOf(b, i);
     }
-    return hash;
+    return sum;
 }
 
 }  // namespace cairn
