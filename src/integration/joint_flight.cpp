@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "math/rotation.h"
 
@@ -98,7 +99,10 @@ void JointFlight::noteKicks(const JointGroups& groups, std::size_t group, const 
 
 void JointFlight::begin(std::span<Joint> joints, const JointGroups& groups, const BodyStorage& bodies,
                         const Motion& motion) {
-    for (Joint& joint : joints) joint.impulse = joint.angular_impulse = Vec3::Zero();
+    for (Joint& joint : joints) {
+        joint.last_impulse = std::exchange(joint.impulse, Vec3::Zero());
+        joint.last_angular_impulse = std::exchange(joint.angular_impulse, Vec3::Zero());
+    }
     if (groups.size() == 0) return;
     pushed_.assign(bodies.slots(), 0);
     for (const Contact& contact : motion.contacts) {

@@ -21,21 +21,23 @@ struct Joint {
     JointKind kind = JointKind::ball;
     BodyIndex a = 0;
     BodyIndex b = world;
-    Vec3 anchor_a = Vec3::Zero();         ///< [m, A]
-    Vec3 anchor_b = Vec3::Zero();         ///< [m, B]
-    Vec3 axis_a = Vec3::UnitZ();          ///< unit [A]
-    Vec3 axis_b = Vec3::UnitZ();          ///< unit [B]
-    Quat rest = Quat::Identity();         ///< A to B where the position is zero
-    double length = 0;                    ///< of distances and ropes [m]
-    double lower = -infinite;             ///< least position [rad or m]
-    double upper = infinite;              ///< greatest position [rad or m]
-    double motor_speed = 0;               ///< [rad/s or m/s]
-    double motor_limit = 0;               ///< [N·m or N]; 0 = no motor
-    double break_force = infinite;        ///< [N]
-    double break_torque = infinite;       ///< [N·m]
-    bool collide = false;                 ///< whether A and B may touch
-    Vec3 impulse = Vec3::Zero();          ///< on A at its anchor in the last step [N·s, W]
-    Vec3 angular_impulse = Vec3::Zero();  ///< on A besides [N·m·s, W]
+    Vec3 anchor_a = Vec3::Zero();              ///< [m, A]
+    Vec3 anchor_b = Vec3::Zero();              ///< [m, B]
+    Vec3 axis_a = Vec3::UnitZ();               ///< unit [A]
+    Vec3 axis_b = Vec3::UnitZ();               ///< unit [B]
+    Quat rest = Quat::Identity();              ///< A to B where the position is zero
+    double length = 0;                         ///< of distances and ropes [m]
+    double lower = -infinite;                  ///< least position [rad or m]
+    double upper = infinite;                   ///< greatest position [rad or m]
+    double motor_speed = 0;                    ///< [rad/s or m/s]
+    double motor_limit = 0;                    ///< [N·m or N]; 0 = no motor
+    double break_force = infinite;             ///< [N]
+    double break_torque = infinite;            ///< [N·m]
+    bool collide = false;                      ///< whether A and B may touch
+    Vec3 impulse = Vec3::Zero();               ///< on A at its anchor in the last step [N·s, W]
+    Vec3 angular_impulse = Vec3::Zero();       ///< on A besides [N·m·s, W]
+    Vec3 last_impulse = Vec3::Zero();          ///< that of the step before, during a step: sleepers go on with it
+    Vec3 last_angular_impulse = Vec3::Zero();  ///< likewise
 
     bool hasMotor() const { return motor_limit > 0; }
 };

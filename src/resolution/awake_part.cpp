@@ -1,6 +1,7 @@
 #include "resolution/awake_part.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "resolution/batch_motion.h"
@@ -39,7 +40,7 @@ class AwakePart final : public Resolution {
         const auto [sleeping, resting] = count(batch, bodies);
         const bool all = sleeping + resting == batch.bodies.size();
         const bool some = sleepers_ == Sleepers::remain && (resting > 0 || (sleeping > 0 && settings.wake_speed > 0));
-        if ((all || some) && batch.joints.empty() && hasStillSupports(batch, contacts, bodies)) {
+        if ((all || some) && hasStillSupports(batch, contacts, bodies) && hasStillAnchors(batch, bodies)) {
             if (!all) return resolvePart(batch, contacts, bodies, settings, executor);
             for (const BodyIndex i : batch.bodies) hold(bodies, i);
             forEachContact(batch, contacts, executor, [](Contact& c) { c.impulse += c.last_impulse; });
@@ -69,6 +70,12 @@ class AwakePart final : public Resolution {
         return {sleeping, resting};
     }
 
+    /// Whether no fixed body that moves is at the other end of a joint.
+    static bool hasStillAnchors(const BatchView& batch, const BodyState& bodies) {
+        const auto holds = [&](BodyIndex i) { return i == Joint::world || !bodies.isFixed(i) || isAtRest(bodies, i); };
+        return std::ranges::all_of(batch.joints, [&](const JointBlock& j) { return holds(j.a) && holds(j.b); });
+    }
+
     /// Takes away what gravity gave to a body that rests.
     static void hold(const BodyState& bodies, BodyIndex i) {
         bodies.v[i].setZero();
@@ -94,19 +101,22 @@ class AwakePart final : public Resolution {
             part_[i] = Part::held;
             hold(bodies, i);
         }
+        freeTied(batch, bodies);
         freeAllUnlessWorthwhile(batch, bodies);
         ResolutionCounts counts;
         for (int reach = 1;; reach *= 4) {
             select(batch, contacts, bodies);
-            const BatchView part{part_bodies_, part_contacts_, {}};
+            const BatchView part{part_bodies_, part_contacts_, part_joints_};
             const ResolutionCounts round = resolution_->resolve(part, contacts, bodies, settings, executor);
             counts.global_iterations += round.global_iterations;
             findDisturbed(contacts, bodies, settings);
             if (disturbed_.empty()) break;
             goBack(contacts, bodies);
             wakeAround(batch, contacts, bodies, reach);
+            freeTied(batch, bodies);
             freeAllUnlessWorthwhile(batch, bodies);
         }
+        for (std::size_t n = 0; n < part_joints_.size(); ++n) batch.joints[joint_of_part_[n]] = part_joints_[n];
         forEachContact(batch, contacts, executor, [&](Contact& contact) {
             const bool a = isFree(bodies, contact.a);
             const bool b = isFree(bodies, contact.b);
@@ -129,7 +139,23 @@ class AwakePart final : public Resolution {
     bool isHeld(BodyIndex i) const { return part_[i] == Part::held; }
     bool isFree(const BodyState& bodies, BodyIndex i) const { return !isHeld(i) && !bodies.isFixed(i); }
 
-    /// Finds the bodies that are not held with their contacts, and notes their velocities.
+    /// Bodies that joints tie together are held together or not at all.
+    void freeTied(const BatchView& batch, const BodyState& bodies) {
+        const auto isPartOf = [&](BodyIndex i) { return i != Joint::world && isFree(bodies, i); };
+        const auto isHeldPart = [&](BodyIndex i) { return i != Joint::world && isHeld(i); };
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (const JointBlock& joint : batch.joints) {
+                for (const auto& [end, other] : {std::pair(joint.a, joint.b), std::pair(joint.b, joint.a)}) {
+                    if (!isPartOf(end) || !isHeldPart(other)) continue;
+                    free(bodies, other);
+                    changed = true;
+                }
+            }
+        }
+    }
+
+    /// Finds the bodies that are not held with their contacts and joints, and notes their velocities.
     void select(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
         part_bodies_.clear();
         part_contacts_.clear();
@@ -139,6 +165,14 @@ class AwakePart final : public Resolution {
         noteMotion(part_bodies_, bodies, before_);
         for (const std::uint32_t i : batch.contacts) {
             if (isFree(bodies, contacts[i].a) || isFree(bodies, contacts[i].b)) part_contacts_.push_back(i);
+        }
+        part_joints_.clear();
+        joint_of_part_.clear();
+        for (std::uint32_t j = 0; j < batch.joints.size(); ++j) {
+            const JointBlock& joint = batch.joints[j];
+            if (isHeld(joint.a) || (joint.b != Joint::world && isHeld(joint.b))) continue;
+            part_joints_.push_back(joint);
+            joint_of_part_.push_back(j);
         }
     }
 
@@ -213,6 +247,8 @@ class AwakePart final : public Resolution {
     std::vector<std::uint32_t> disturbance_of_;  ///< [slots] index in disturbances_; none outside of findDisturbed()
     std::vector<BodyIndex> part_bodies_;         ///< ascending
     std::vector<std::uint32_t> part_contacts_;   ///< ascending
+    std::vector<JointBlock> part_joints_;        ///< copies, so that what is undone leaves nothing behind
+    std::vector<std::uint32_t> joint_of_part_;   ///< [part_joints_] index in the batch
     std::vector<BodyMotion> before_;             ///< [part_bodies_]
     std::vector<BodyIndex> disturbed_;
 };

@@ -30,6 +30,11 @@ bool isDriven(const WorldState& world, std::size_t group) {
     });
 }
 
+/// Whether the bodies of a joint slept through the resolution. @pre one of them can move
+bool isAsleep(const BodyStorage& bodies, const Joint& joint) {
+    return bodies.asleep[isMovable(bodies.kind, joint.a) ? joint.a : joint.b] != 0;
+}
+
 void removeBroken(WorldState& world, std::uint32_t slot) {
     Joint& joint = world.joints[slot];
     const BodyState bodies = world.bodies.state();
@@ -119,7 +124,15 @@ void letJointedSleep(WorldState& world) {
 }
 
 void finishJoints(WorldState& world) {
-    for (const JointBlock& block : world.data.joint_blocks) reportImpulses(block, world.joints[block.joint]);
+    for (const JointBlock& block : world.data.joint_blocks) {
+        Joint& joint = world.joints[block.joint];
+        if (isAsleep(world.bodies, joint)) {
+            joint.impulse = joint.last_impulse;
+            joint.angular_impulse = joint.last_angular_impulse;
+        } else {
+            reportImpulses(block, joint);
+        }
+    }
     const double time_step = world.settings.timeStep();
     for (std::uint32_t slot = 0; slot < world.joints.size(); ++slot) {
         const Joint& joint = world.joints[slot];

@@ -187,6 +187,59 @@ TEST(WorldJoints, SleepAndWakeTogether) {
     EXPECT_EQ(s.world.isAsleep(a), s.world.isAsleep(b));
 }
 
+class JointedSleepers : public testing::TestWithParam<Preset> {};
+
+TEST_P(JointedSleepers, SleepOnInSilence) {
+    Site s(Settings::preset(GetParam()));
+    s.world.addBody({.shape = HalfSpace{}, .material = s.oak, .fixed = true});
+    const BodyId a = s.box({0, 0, 0.1});
+    const BodyId b = s.box({0.25, 0, 0.1});
+    const BodyId lamp = s.box({0, 5, 1});
+    s.world.addJoint({.kind = JointKind::hinge, .a = a, .b = b, .anchor = Vec3(0.125, 0, 0.1)});
+    const JointId hook = s.world.addJoint({.kind = JointKind::ball, .a = lamp, .anchor = Vec3(0, 5, 1.2)});
+    s.run(1000);
+    ASSERT_EQ(s.world.statistics().asleep, 3);
+    const Vec3 impulse = s.world.joint(hook).impulse;
+    const double part = 1 - s.world.settings().gravity_damping.damping;
+    EXPECT_GE(impulse.z(), 0.99 * part * 6.4 * 10 * s.world.settings().timeStep()) << "bears the lamp";
+    s.world.setEventLevel(EventLevel::changes);
+    for (int i = 0; i < 20; ++i) {
+        s.run(1);
+        EXPECT_EQ(s.world.statistics().asleep, 3);
+        EXPECT_EQ(s.world.statistics().woken, 0);
+        EXPECT_TRUE(s.world.events().empty());
+        EXPECT_EQ(s.world.joint(hook).impulse, impulse) << "and goes on to";
+    }
+    s.world.applyImpulse(b, Vec3(0, 0, 5));
+    s.run(1);
+    EXPECT_EQ(s.world.statistics().woken, 2);
+}
+
+/// A small ball that rolls over heavy sleeping boxes, of which a joint ties two, wakes none.
+TEST(WorldJoints, DoNotWakeTheirPile) {
+    Site s;
+    s.world.addBody({.shape = HalfSpace{}, .material = s.oak, .fixed = true});
+    std::vector<BodyId> boxes;
+    for (int i = 0; i < 10; ++i) boxes.push_back(s.box({0.2 * i, 0, 0.1}));
+    s.world.addJoint({.kind = JointKind::hinge, .a = boxes[6], .b = boxes[7], .anchor = Vec3(1.3, 0, 0.1)});
+    s.run(1000);
+    ASSERT_EQ(s.world.statistics().asleep, 10);
+    s.world.addBody({.shape = Sphere{0.01},
+                     .material = s.oak,
+                     .pose = {Vec3(0.7, 0, 0.21), Quat::Identity()},
+                     .linear_velocity = Vec3(0.5, 0, 0),
+                     .angular_velocity = Vec3(0, 50, 0)});
+    for (int i = 0; i < 240; ++i) {
+        s.run(1);
+        ASSERT_EQ(s.world.statistics().woken, 0) << "step " << i;
+        ASSERT_EQ(s.world.statistics().largest_batch, s.world.statistics().contacts) << "all in one batch";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, JointedSleepers,
+                         testing::Values(Preset::performance, Preset::accuracy, Preset::thesis),
+                         [](const auto& test) { return std::string(nameOf(test.param)); });
+
 TEST(WorldJoints, ARemovedOneLetsItsSleepingBodiesFall) {
     Site s;
     const BodyId a = s.box({0, 0, 1});
