@@ -36,7 +36,8 @@ TEST_P(Threads, StatesAreEqualAtEveryStep) {
     EXPECT_TRUE(first.faults().empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Threads, golden::everySceneWithEveryKind(), golden::nameOfSceneAndKind);
+INSTANTIATE_TEST_SUITE_P(Scenes, Threads, testing::ValuesIn(golden::everySceneWithEveryKind()),
+                         golden::nameOfSceneAndKind);
 
 TEST(BodyOrder, BroadPhasesGiveTheSameRun) {
     const Scene scene = builtInScene("cage384");

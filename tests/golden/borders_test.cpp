@@ -79,7 +79,7 @@ TEST_P(Borders, ThePileIsLargeWithItsJointAndWithout) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Settings, Borders, testing::ValuesIn(kinds),
+INSTANTIATE_TEST_SUITE_P(Settings, Borders, testing::ValuesIn(kinds_of_all),
                          [](const auto& test) { return std::string(nameOf(test.param)); });
 
 class Events : public testing::TestWithParam<Kind> {};
@@ -94,7 +94,7 @@ TEST_P(Events, OneJointOfTheMechanismBreaks) {
 
 TEST_P(Events, TheThrownBallWakesOneStackAfterAnother) {
     const GoldenScene& scene = goldenScene("waking_by_ball");
-    const HashSteps& steps = scene.hashSteps(GetParam());
+    const std::span<const std::int64_t> steps = scene.hashSteps(GetParam());
     GoldenRun run(scene, GetParam(), 1);
     run.stepUntil(steps[0]);
     EXPECT_EQ(run.world().statistics().asleep, 30);
@@ -124,7 +124,7 @@ TEST_P(Events, TheScenesOfTheThesisGoBeyondTheirImpact) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Settings, Events, testing::ValuesIn(kinds),
+INSTANTIATE_TEST_SUITE_P(Settings, Events, testing::ValuesIn(kinds_of_all),
                          [](const auto& test) { return std::string(nameOf(test.param)); });
 
 }  // namespace

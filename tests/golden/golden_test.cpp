@@ -28,7 +28,7 @@ TEST_P(Golden, HashesAreTheKeptOnes) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Golden, everySceneWithEveryKind(), nameOfSceneAndKind);
+INSTANTIATE_TEST_SUITE_P(Scenes, Golden, testing::ValuesIn(everySceneWithEveryKind()), nameOfSceneAndKind);
 
 TEST(GoldenRows, AreThoseOfTheScenes) {
     std::size_t rows = 0;

@@ -30,7 +30,7 @@ std::string describe(const RowKey& key);
 /// Hashes by what they are of; hexadecimal, "0x" and sixteen digits.
 using Rows = std::map<RowKey, std::string>;
 
-/// Runs a scene and adds its three rows.
+/// Runs a scene and adds its rows.
 void addRows(const GoldenScene& scene, Kind kind, Rows& rows);
 
 /// @throws IoError, or nlohmann::json::exception if it is not such a file

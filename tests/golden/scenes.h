@@ -13,10 +13,12 @@
 
 namespace cairn::golden {
 
-/// The settings that every scene runs with.
-enum class Kind { performance, accuracy, thesis };
+/// The settings that scenes run with: the presets.
+enum class Kind { performance, accuracy, thesis, thesis_accuracy };
 
-inline constexpr std::array kinds = {Kind::performance, Kind::accuracy, Kind::thesis};
+inline constexpr std::array kinds = {Kind::performance, Kind::accuracy, Kind::thesis, Kind::thesis_accuracy};
+/// Those that every scene runs with.
+inline constexpr std::array kinds_of_all = {Kind::performance, Kind::accuracy, Kind::thesis};
 
 /// As in the column "preset" of the kept rows.
 std::string_view nameOf(Kind kind);
@@ -35,11 +37,12 @@ struct GoldenScene {
     std::string_view name;
     Scene (*make)();
     HashSteps steps;                    ///< at 240 steps per second: performance and thesis
-    HashSteps accuracy_steps;           ///< at 960 steps per second
+    HashSteps accuracy_steps;           ///< at 960 steps per second, thesis_accuracy apart
     std::span<const Action> actions{};  ///< by time
     std::int64_t contacts = 0;  ///< of the largest batch at every one of the steps above; 0 = whatever there are
 
-    const HashSteps& hashSteps(Kind kind) const { return kind == Kind::accuracy ? accuracy_steps : steps; }
+    /// None where a scene is not run with these settings.
+    std::span<const std::int64_t> hashSteps(Kind kind) const;
 };
 
 /// All of them; names are unique.
