@@ -7,8 +7,8 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
-#include <vector>
 
+#include "body/field_array.h"
 #include "cairn/events.h"
 #include "cairn/shape.h"
 #include "cairn/types.h"
@@ -23,32 +23,32 @@ enum class BodyKind : std::uint8_t { hole, fixed, dynamic };
 
 /// Structure of arrays with one entry per slot; a hole's entries are those of its last body, its kind is hole.
 struct BodyArrays {
-    std::vector<BodyKind> kind;
-    std::vector<std::uint32_t> generation;  ///< how often a body left the slot
-    std::vector<std::uint64_t> number;      ///< of the body in its world, ascending as bodies are added; never reused
-    std::vector<Shape> shape;
-    std::vector<std::uint32_t> material;
-    std::vector<std::string> name;
-    std::vector<Vec3> position;       ///< centre of mass [m, W]
-    std::vector<Quat> orientation;    ///< B to W
-    std::vector<Vec3> v;              ///< [m/s, W]
-    std::vector<Vec3> w;              ///< [rad/s, W]
-    std::vector<Vec3> p_BS;           ///< origin of the shape's frame S, which World::pose() is about [m, B]
-    std::vector<Quat> R_BS;           ///< S to B
-    std::vector<double> mass;         ///< [kg], of the description also for fixed bodies
-    std::vector<Vec3> inertia_B;      ///< principal moments [kg·m², B]
-    std::vector<double> mass_inv;     ///< [1/kg]; 0 = fixed
-    std::vector<Vec3> inertiaInv_B;   ///< [1/(kg·m²), B]; 0 = fixed
-    std::vector<Mat3> inertiaInv_W;   ///< [1/(kg·m²), W]; follows the orientation
-    std::vector<double> r_max;        ///< largest distance of a surface point from the centre [m]
-    std::vector<Vec3> linear_step;    ///< ℓ: displacement by the linear velocity in this time step [m, W]
-    std::vector<Vec3> force, torque;  ///< for the next step [N], [N·m, W]
-    std::vector<Vec3> constant_force, constant_torque;  ///< in every step [N], [N·m, W]
-    std::vector<std::uint8_t> asleep;                   ///< 1 = asleep
-    std::vector<std::uint8_t> resting;                  ///< 1 = awake, but nothing changed since it came to rest
-    std::vector<WakeReason> woken;                      ///< why it woke in this step
-    std::vector<double> motion;          ///< rwa: recency-weighted average of the squared motion [m²/s²] (3.2.4)
-    std::vector<std::int32_t> supports;  ///< contacts in the direction of gravity in the last step; −1 = unknown
+    FieldArray<BodyKind> kind;
+    FieldArray<std::uint32_t> generation;  ///< how often a body left the slot
+    FieldArray<std::uint64_t> number;      ///< of the body in its world, ascending as bodies are added; never reused
+    FieldArray<Shape> shape;
+    FieldArray<std::uint32_t> material;
+    FieldArray<std::string> name;
+    FieldArray<Vec3> position;       ///< centre of mass [m, W]
+    FieldArray<Quat> orientation;    ///< B to W
+    FieldArray<Vec3> v;              ///< [m/s, W]
+    FieldArray<Vec3> w;              ///< [rad/s, W]
+    FieldArray<Vec3> p_BS;           ///< origin of the shape's frame S, which World::pose() is about [m, B]
+    FieldArray<Quat> R_BS;           ///< S to B
+    FieldArray<double> mass;         ///< [kg], of the description also for fixed bodies
+    FieldArray<Vec3> inertia_B;      ///< principal moments [kg·m², B]
+    FieldArray<double> mass_inv;     ///< [1/kg]; 0 = fixed
+    FieldArray<Vec3> inertiaInv_B;   ///< [1/(kg·m²), B]; 0 = fixed
+    FieldArray<Mat3> inertiaInv_W;   ///< [1/(kg·m²), W]; follows the orientation
+    FieldArray<double> r_max;        ///< largest distance of a surface point from the centre [m]
+    FieldArray<Vec3> linear_step;    ///< ℓ: displacement by the linear velocity in this time step [m, W]
+    FieldArray<Vec3> force, torque;  ///< for the next step [N], [N·m, W]
+    FieldArray<Vec3> constant_force, constant_torque;  ///< in every step [N], [N·m, W]
+    FieldArray<std::uint8_t> asleep;                   ///< 1 = asleep
+    FieldArray<std::uint8_t> resting;                  ///< 1 = awake, but nothing changed since it came to rest
+    FieldArray<WakeReason> woken;                      ///< why it woke in this step
+    FieldArray<double> motion;          ///< rwa: recency-weighted average of the squared motion [m²/s²] (3.2.4)
+    FieldArray<std::int32_t> supports;  ///< contacts in the direction of gravity in the last step; −1 = unknown
 };
 
 /// What changes a field.
@@ -83,13 +83,13 @@ template <class Type>
 struct BodyField {
     using Initial = Type (*)();
 
-    constexpr BodyField(std::vector<Type> BodyArrays::*of, std::string_view called, std::string_view in,
+    constexpr BodyField(FieldArray<Type> BodyArrays::*of, std::string_view called, std::string_view in,
                         Change changed_by, Sync synced, std::type_identity_t<Initial> begins_with = &blank<Type>)
         : array(of), name(called), unit(in), change(changed_by), sync(synced), initial(begins_with) {}
 
     constexpr bool isSaved() const { return change != Change::anew; }
 
-    std::vector<Type> BodyArrays::*array;
+    FieldArray<Type> BodyArrays::*array;
     std::string_view name;
     std::string_view unit;  ///< SI; 1 = a number without unit, empty = no number
     Change change;
@@ -129,7 +129,7 @@ inline constexpr auto body_fields = std::tuple{
     BodyField{&BodyArrays::supports, "supports", "1", Change::steps, Sync::on_migration, [] { return -1; }},
 };
 
-static_assert(sizeof(BodyArrays) == std::tuple_size_v<decltype(body_fields)> * sizeof(std::vector<Vec3>),
+static_assert(sizeof(BodyArrays) == std::tuple_size_v<decltype(body_fields)> * sizeof(FieldArray<Vec3>),
               "a member of BodyArrays has no row in body_fields");
 
 /// Calls visit(const BodyField<Type>&) for every row.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <functional>
 
-#include "math/arrays.h"
 #include "math/rotation.h"
 
 namespace cairn {
@@ -22,7 +21,7 @@ BodyIndex BodyStorage::allocate(BodyKind new_kind) {
     BodyIndex i = 0;
     if (holes_.empty()) {
         i = static_cast<BodyIndex>(kind.size());
-        forEachBodyField([&](const auto& field) { resizeTightly(this->*field.array, std::size_t{i} + 1); });
+        forEachBodyField([&](const auto& field) { (this->*field.array).resize(std::size_t{i} + 1); });
     } else {
         std::pop_heap(holes_.begin(), holes_.end(), std::greater<>());
         i = holes_.back();

@@ -192,7 +192,7 @@ void noteTouching(const BodyStorage& bodies, double threshold, double time_step,
                   std::span<Contact> contacts) {
     before.lift.assign(bodies.slots(), Vec3::Zero());
     for (Contact& c : contacts) {
-        const auto normalVelocity = [&](const std::vector<Vec3>& v, const std::vector<Vec3>& w) {
+        const auto normalVelocity = [&](std::span<const Vec3> v, std::span<const Vec3> w) {
             const Vec3 of_a = v[c.a] + w[c.a].cross(c.point - bodies.position[c.a]);
             const Vec3 of_b = v[c.b] + w[c.b].cross(c.point - bodies.position[c.b]);
             return c.normal.dot(of_a - of_b);

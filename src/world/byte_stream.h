@@ -82,8 +82,10 @@ class ByteReader {
         if (value > static_cast<std::underlying_type_t<Enum>>(last)) refuse("an unknown choice");
         return static_cast<Enum>(value);
     }
-    template <PlainBytes T>
-    void getArray(std::vector<T>& values) {
+    template <class Array>
+    void getArray(Array& values) {
+        using T = typename Array::value_type;
+        static_assert(PlainBytes<T>);
         const std::uint64_t count = get<std::uint64_t>();
         // Compared before anything is reserved: a damaged count must not ask for the memory it names.
         if (count > left() / sizeof(T)) refuse("an array longer than the snapshot");
@@ -91,8 +93,8 @@ class ByteReader {
         if (count > 0) std::memcpy(static_cast<void*>(values.data()), take(count * sizeof(T)), count * sizeof(T));
     }
     /// An array of a known length. @throws InputError if it has another
-    template <PlainBytes T>
-    void getArray(std::vector<T>& values, std::size_t count) {
+    template <class Array>
+    void getArray(Array& values, std::size_t count) {
         getArray(values);
         if (values.size() != count) refuse("an array of a wrong length");
     }

@@ -104,7 +104,7 @@ ContactWork workOf(const WorldState& world, const Contact& c) {
     const BodyStorage& b = world.bodies;
     const MeasuredData& data = world.data.measured;
     const Mat3 to_contact = contactBasis(c.normal).transpose();
-    const auto at = [&](const std::vector<Vec3>& v, const std::vector<Vec3>& w) -> Vec3 {
+    const auto at = [&](std::span<const Vec3> v, std::span<const Vec3> w) -> Vec3 {
         const Vec3 r_a = c.point - b.position[c.a];
         const Vec3 r_b = c.point - b.position[c.b];
         return to_contact * (v[c.a] + w[c.a].cross(r_a) - v[c.b] - w[c.b].cross(r_b));
@@ -222,8 +222,8 @@ void measure(WorldState& world, Measured point) {
             break;
     }
     data.last = now;
-    data.v = world.bodies.v;
-    data.w = world.bodies.w;
+    data.v.assign(world.bodies.v.begin(), world.bodies.v.end());
+    data.w.assign(world.bodies.w.begin(), world.bodies.w.end());
 }
 
 }  // namespace cairn

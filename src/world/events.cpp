@@ -83,7 +83,7 @@ void beginEvents(WorldState& world) {
     EventLog& log = world.events;
     log.events.clear();
     if (log.level == EventLevel::none) return;
-    log.asleep_before = world.bodies.asleep;
+    log.asleep_before.assign(world.bodies.asleep.begin(), world.bodies.asleep.end());
     log.faults_before = world.faults.size();
     log.touching_before.clear();
     const std::span<const Contact> contacts = world.data.contacts;

@@ -33,24 +33,24 @@ void array(ByteReader& in, std::vector<T>& values) {
 
 // An array with one entry per slot.
 template <PlainBytes T>
-void slotArray(ByteWriter& out, const std::vector<T>& values, std::size_t) {
+void slotArray(ByteWriter& out, const FieldArray<T>& values, std::size_t) {
     out.putArray(std::span<const T>(values));
 }
 template <PlainBytes T>
-void slotArray(ByteReader& in, std::vector<T>& values, std::size_t slots) {
+void slotArray(ByteReader& in, FieldArray<T>& values, std::size_t slots) {
     in.getArray(values, slots);
 }
-inline void slotArray(ByteWriter& out, const std::vector<Shape>& shapes, std::size_t) {
+inline void slotArray(ByteWriter& out, const FieldArray<Shape>& shapes, std::size_t) {
     for (const Shape& shape : shapes) saveShape(shape, out);
 }
-inline void slotArray(ByteReader& in, std::vector<Shape>& shapes, std::size_t slots) {
+inline void slotArray(ByteReader& in, FieldArray<Shape>& shapes, std::size_t slots) {
     shapes.resize(slots);
     for (Shape& shape : shapes) shape = loadShape(in);
 }
-inline void slotArray(ByteWriter& out, const std::vector<std::string>& names, std::size_t) {
+inline void slotArray(ByteWriter& out, const FieldArray<std::string>& names, std::size_t) {
     for (const std::string& name : names) out.putText(name);
 }
-inline void slotArray(ByteReader& in, std::vector<std::string>& names, std::size_t slots) {
+inline void slotArray(ByteReader& in, FieldArray<std::string>& names, std::size_t slots) {
     names.resize(slots);
     for (std::string& name : names) name = in.getText();
 }

@@ -162,7 +162,7 @@ void loadBodies(ByteReader& in, std::size_t materials, BodyStorage& b) {
         std::ranges::any_of(b.resting, [](std::uint8_t resting) { return resting > 1; })) {
         in.refuse("an unknown state of a body");
     }
-    checkNumbers(in, b.number, next_number);
+    checkNumbers(in, {b.number.begin(), b.number.end()}, next_number);
     b.linear_step.assign(slots, Vec3::Zero());
     b.adoptSlots(next_number);
     for (BodyIndex i = 0; i < slots; ++i) {

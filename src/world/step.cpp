@@ -90,7 +90,7 @@ void correctStage(WorldState& world) {
     const BodyState bodies = world.bodies.state();
     const CorrectionSettings& settings = world.settings.correction;
     const bool traced = world.trace.tracing == Tracing::on;
-    if (traced) world.trace.correction = world.bodies.position;
+    if (traced) world.trace.correction.assign(world.bodies.position.begin(), world.bodies.position.end());
     const bool touching = world.settings.resolution.restitution_speed == RestitutionSpeed::touching;
     if (touching) {
         for (Contact& contact : data.contacts) contact.gap = contact.distance;
@@ -146,7 +146,7 @@ void velocityStage(WorldState& world) {
         wakeUnsupported(world.bodies.state(), world.bodies.supports, data.supports, world.executor);
         wakeJointed(world);
     }
-    std::swap(world.bodies.supports, data.supports);
+    std::ranges::copy(data.supports, world.bodies.supports.begin());
     const bool exact = world.settings.integration.exact_flight;
     const bool touching = world.settings.resolution.restitution_speed == RestitutionSpeed::touching;
     if (exact || touching) noteVelocities(world.bodies, world.executor, data.before);
@@ -220,7 +220,7 @@ void sleepStage(WorldState& world) {
 }
 
 void outputStage(WorldState& world) {
-    world.data.generation = world.bodies.generation;
+    world.data.generation.assign(world.bodies.generation.begin(), world.bodies.generation.end());
     collectEvents(world);
     summarize(world);
 }

@@ -18,7 +18,7 @@ TEST(BodyFields, NameEveryArrayOnce) {
         EXPECT_TRUE(places.insert(&(arrays.*field.array)).second) << field.name;
         EXPECT_TRUE(names.insert(field.name).second) << field.name;
     });
-    EXPECT_EQ(places.size() * sizeof(std::vector<double>), sizeof arrays);
+    EXPECT_EQ(places.size() * sizeof(FieldArray<double>), sizeof arrays);
 }
 
 TEST(BodyFields, GrowTogetherAndBeginAsTheirRowSays) {

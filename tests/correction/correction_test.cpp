@@ -147,7 +147,7 @@ TEST(PropagatedCorrection, NeverMovesFixedBodies) {
         for (BodyIndex i = 0; i < scene.kind.size(); ++i) {
             if (scene.kind[i] == BodyKind::fixed) scene.linear_step[i] = scene.v[i] = Vec3(1, -1, 1);
         }
-        const std::vector<Vec3> before = scene.position;
+        const FieldArray<Vec3> before = scene.position;
         scene.correct();
         for (BodyIndex i = 0; i < scene.kind.size(); ++i) {
             if (scene.kind[i] != BodyKind::fixed) continue;

@@ -23,7 +23,7 @@ ContactScene crowd(int bodies, double spacing) {
 
 TEST(Loosening, MovesTheOuterBodiesOutwardsAndKeepsTheMiddle) {
     ContactScene scene = crowd(40, 1e-3);
-    const std::vector<Vec3> before = scene.position;
+    const FieldArray<Vec3> before = scene.position;
     const CorrectionCounts counts = scene.correct();
     EXPECT_EQ(counts.displaced, 40);
     // The first body is asked by 39 others to go half of each overlap: on average (1 − 20·0.001)/2 m.
