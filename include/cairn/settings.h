@@ -30,8 +30,9 @@ Preset presetNamed(std::string_view name);
 
 /// How candidates for contacts are found; both find the same.
 enum class BroadPhaseKind { hash_grids, all_pairs };
-/// Which penetration correction runs. @source thesis §2
-enum class CorrectionKind { propagated, none };
+/// Which penetration correction runs: the thesis's propagation, none, or sweeps over the overlapping contacts that move
+/// their bodies apart by inverse masses and take what that lifts from their motion. @source thesis §2
+enum class CorrectionKind { propagated, none, position_sweeps };
 /// How closing contacts are resolved: the thesis's queue, a plain sweep as an independent second one, sweeps with warm
 /// starting accelerated by conjugate gradients, or not at all.
 enum class ResolutionKind { impulse_queue, sweep, accelerated_sweeps, none };

@@ -23,6 +23,8 @@ struct BodyState {
     std::span<std::uint8_t> resting;     ///< 1 = awake, but nothing has changed since it came to rest
     std::span<WakeReason> woken;         ///< why it woke in this step
 
+    /// Sum of the global accelerations, for the correction [m/s², W].
+    Vec3 acceleration = Vec3::Zero();
     /// What gravity gives a body at rest in this time step [m/s, W].
     Vec3 fall = Vec3::Zero();
     /// Subset of the shock propagation; empty unless the step is traced.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "correction/position_sweeps.h"
 #include "correction/propagated_correction.h"
 
 namespace cairn {
@@ -30,8 +31,13 @@ std::unique_ptr<Correction> makeCorrection(CorrectionKind kind) {
             return std::make_unique<PropagatedCorrection>();
         case CorrectionKind::none:
             return std::make_unique<NoCorrection>();
+        case CorrectionKind::position_sweeps:
+            return std::make_unique<PositionSweeps>();
     }
-    throw InputError(fmt::format("correction is {}; allowed are propagated (0) and none (1)", static_cast<int>(kind)));
+    throw InputError(
+        fmt::format("correction is {}; allowed are propagated (0), none (1) and "
+                    "position_sweeps (2)",
+                    static_cast<int>(kind)));
 }
 
 }  // namespace cairn

@@ -202,6 +202,8 @@ void measure(WorldState& world, Measured point) {
             break;
         case Measured::correction:
             d.energy_correction = now.energy() - last.energy();
+            // Pairs of bodies pay with equal and opposite impulses: what is left came from fixed bodies.
+            d.fixed_impulse += now.momentum - last.momentum;
             break;
         case Measured::forces:
             accountForces(world, now.kinetic - last.kinetic);

@@ -19,7 +19,7 @@ constexpr double above_zero = std::numeric_limits<double>::min();
 constexpr double gravity_limit = 1e12;
 
 constexpr std::array<std::string_view, 2> broad_phase_names = {"hash_grids", "all_pairs"};
-constexpr std::array<std::string_view, 2> correction_names = {"propagated", "none"};
+constexpr std::array<std::string_view, 3> correction_names = {"propagated", "none", "position_sweeps"};
 constexpr std::array<std::string_view, 4> resolution_names = {"impulse_queue", "sweep", "accelerated_sweeps", "none"};
 constexpr std::array<std::string_view, 2> order_names = {"highest_closing_speed", "arbitrary"};
 constexpr std::array<std::string_view, 2> restitution_law_names = {"newton", "energetic"};

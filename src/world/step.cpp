@@ -73,7 +73,8 @@ void buildBatchesStage(WorldState& world) {
 
 void correctBatches(WorldState& world) {
     StepData& data = world.data;
-    const BodyState bodies = world.bodies.state();
+    BodyState bodies = world.bodies.state();
+    bodies.acceleration = world.gravity + world.global_acceleration;
     forBatches(data, 0, world.executor, [&](std::uint32_t batch, int thread) {
         const auto t = static_cast<std::size_t>(thread);
         const CorrectionCounts counts = world.corrections[t]->correct(data.batches[batch], data.contacts_of,

@@ -48,5 +48,29 @@ TEST(PropagatedCorrection, AllocatesNothingOnceItHasSearchedAsFar) {
     EXPECT_EQ(step(), 0u);
 }
 
+TEST(PositionSweeps, AllocateNothingOnceTheyKnowTheBatch) {
+    ContactScene scene;
+    scene.settings.penetration_threshold = 0.01;
+    scene.addFixed();
+    std::vector<BodyIndex> bodies;
+    std::vector<std::uint32_t> indices;
+    for (BodyIndex i = 1; i <= 40; ++i) {
+        bodies.push_back(scene.addBody(Vec3(0, 0, 0.1 * i)));
+        indices.push_back(scene.touch(i, i - 1, Vec3::UnitZ(), -0.012));
+    }
+    const std::vector<Contact> start = scene.contacts;
+    const auto correction = makeCorrection(CorrectionKind::position_sweeps);
+    const auto step = [&] {
+        std::ranges::copy(start, scene.contacts.begin());
+        const std::size_t before = allocations;
+        const CorrectionCounts counts =
+            correction->correct({bodies, indices}, {}, scene.contacts, scene.state(), scene.settings);
+        EXPECT_GT(counts.displaced, 0);
+        return allocations - before;
+    };
+    EXPECT_GT(step(), 0u);
+    EXPECT_EQ(step(), 0u);
+}
+
 }  // namespace
 }  // namespace cairn::test

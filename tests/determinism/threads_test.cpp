@@ -1,6 +1,7 @@
 /// The same input gives bit-identical states on any number of threads, at every time step of every scene.
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <vector>
@@ -38,6 +39,23 @@ TEST_P(Threads, StatesAreEqualAtEveryStep) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Threads, testing::ValuesIn(golden::everySceneWithEveryKind()),
                          golden::nameOfSceneAndKind);
+
+TEST(PositionSweeps, GiveTheSameStatesOnAnyNumberOfThreads) {
+    const Scene scene = builtInScene("cage384");
+    Settings settings = settingsFor(scene);
+    settings.correction.correction = CorrectionKind::position_sweeps;
+    SceneRun one(scene, settings);
+    settings.parallel.threads = 3;
+    SceneRun three(scene, settings);
+    std::int64_t displaced = 0;
+    for (int i = 0; i < 360; ++i) {
+        one.step();
+        three.step();
+        displaced += one.world().statistics().displaced_bodies;
+        ASSERT_EQ(one.world().stateHash(), three.world().stateHash()) << i;
+    }
+    EXPECT_GT(displaced, 0);
+}
 
 TEST(BodyOrder, BroadPhasesGiveTheSameRun) {
     const Scene scene = builtInScene("cage384");

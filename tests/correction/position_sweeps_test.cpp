@@ -1,0 +1,201 @@
+/// What position sweeps do with one contact, with chains of them and with the motion of the bodies.
+#include "correction/position_sweeps.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "correction/contact_scene.h"
+
+namespace cairn::test {
+namespace {
+
+/// A scene with gravity and its correction.
+struct SweptScene : ContactScene {
+    static constexpr double threshold = 0.01;
+    static constexpr double gravity = 10;
+
+    SweptScene() {
+        settings.penetration_threshold = threshold;
+        settings.remaining_penetration = 0.5;
+    }
+    CorrectionCounts run() {
+        PositionSweeps sweeps;
+        return runWith(sweeps);
+    }
+    CorrectionCounts runWith(PositionSweeps& sweeps) {
+        std::vector<BodyIndex> bodies;
+        for (BodyIndex i = 0; i < kind.size(); ++i) {
+            if (kind[i] == BodyKind::dynamic) bodies.push_back(i);
+        }
+        std::vector<std::uint32_t> indices(contacts.size());
+        std::iota(indices.begin(), indices.end(), 0U);
+        BodyState all = state();
+        all.acceleration = Vec3(0, 0, -gravity);
+        return sweeps.correct({bodies, indices}, {}, contacts, all, settings);
+    }
+    double energy() const {
+        double sum = 0;
+        for (BodyIndex i = 0; i < kind.size(); ++i) {
+            if (kind[i] != BodyKind::dynamic) continue;
+            sum += (0.5 * v[i].squaredNorm() + gravity * position[i].z()) / mass_inv[i];
+            sum += 0.5 * w[i].dot(inertiaInv_W[i].inverse() * w[i]);
+        }
+        return sum;
+    }
+};
+
+TEST(PositionSweeps, LeaveContactsDownToTheThreshold) {
+    SweptScene scene;
+    const BodyIndex x = scene.addBody();
+    const BodyIndex ground = scene.addFixed();
+    scene.touch(x, ground, up, -SweptScene::threshold);
+    EXPECT_EQ(scene.run().penetrating, 0);
+    EXPECT_EQ(scene.position[x], Vec3::Zero());
+    scene.contacts[0].distance = 2e-3;
+    EXPECT_EQ(scene.run().penetrating, 0);
+    EXPECT_EQ(scene.position[x], Vec3::Zero());
+}
+
+TEST(PositionSweeps, LeaveTheRemainingPartOfADeeperOne) {
+    SweptScene scene;
+    const BodyIndex x = scene.addBody();
+    const BodyIndex ground = scene.addFixed();
+    scene.touch(x, ground, up, -0.03);
+    const CorrectionCounts counts = scene.run();
+    EXPECT_EQ(counts.corrected, 1);
+    EXPECT_EQ(counts.displaced, 1);
+    EXPECT_TRUE(near(scene.position[x], Vec3(0, 0, 0.025)));
+    EXPECT_TRUE(near(scene.position[ground], Vec3::Zero()));
+    EXPECT_NEAR(scene.contacts[0].distance, scene.remaining(), 1e-12);
+    EXPECT_NEAR(scene.contacts[0].point.z(), 0.0125, 1e-12);
+}
+
+TEST(PositionSweeps, MoveThePairByInverseMasses) {
+    SweptScene scene;
+    const BodyIndex light = scene.addBody();
+    const BodyIndex heavy = scene.addBody();
+    scene.mass_inv[heavy] = 0.25;
+    scene.touch(light, heavy, right, -0.03);
+    scene.run();
+    EXPECT_NEAR(scene.position[light].x(), 0.8 * 0.025, 1e-12);
+    EXPECT_NEAR(scene.position[heavy].x(), -0.2 * 0.025, 1e-12);
+}
+
+TEST(PositionSweeps, PushWhatAPushedBodyGetsTooDeepInto) {
+    SweptScene scene;
+    const BodyIndex wall = scene.addFixed();
+    for (int i = 0; i < 3; ++i) scene.addBody();
+    scene.touch(1, wall, right, -0.03);
+    scene.touch(2, 1, right, -SweptScene::threshold);
+    scene.touch(3, 2, right, 0.05);
+    scene.run();
+    EXPECT_GT(scene.position[1].x(), 0.01);
+    EXPECT_GT(scene.position[2].x(), 0.005);
+    EXPECT_EQ(scene.position[3], Vec3::Zero()) << "its contact never gets too deep";
+}
+
+TEST(PositionSweeps, PayWhatTheyLiftFromTheMotionAlongTheNormal) {
+    for (const double speed : {-2.0, 2.0}) {
+        SweptScene scene;
+        const BodyIndex x = scene.addBody();
+        const BodyIndex ground = scene.addFixed();
+        scene.v[x] = Vec3(1, 0, speed);
+        scene.touch(x, ground, up, -0.03);
+        const double before = scene.energy();
+        scene.run();
+        EXPECT_NEAR(scene.energy(), before, 1e-12);
+        EXPECT_EQ(scene.v[x].x(), 1) << "along the normal only";
+        EXPECT_NEAR(scene.v[x].z(), std::copysign(std::sqrt(4 - 2 * SweptScene::gravity * 0.025), speed), 1e-12);
+    }
+}
+
+TEST(PositionSweeps, NeverReverseWhatHasLessThanItOwes) {
+    SweptScene scene;
+    const BodyIndex x = scene.addBody();
+    const BodyIndex ground = scene.addFixed();
+    scene.v[x] = Vec3(0, 0, -0.1);
+    scene.touch(x, ground, up, -0.03);
+    scene.run();
+    EXPECT_EQ(scene.v[x], Vec3::Zero());
+}
+
+TEST(PositionSweeps, KeepMomentumAndEnergyOfPairsThatPay) {
+    SweptScene scene;
+    const BodyIndex lower = scene.addBody(Vec3(0.3, 0.1, 0));
+    const BodyIndex upper = scene.addBody(Vec3(0, 0, 1));
+    scene.mass_inv[lower] = 0.1;
+    scene.v[upper] = Vec3(0, 0, -3);
+    scene.w[lower] = Vec3(0.5, -1, 2);
+    scene.touch(upper, lower, Vec3(0.6, 0, 0.8), -0.03);
+    const auto momentum = [&] { return Vec3(10 * scene.v[lower] + scene.v[upper]); };
+    const Vec3 linear = momentum();
+    const double before = scene.energy();
+    const double kinetic = before - SweptScene::gravity * (10 * scene.position[lower].z() + scene.position[upper].z());
+    scene.run();
+    EXPECT_TRUE(near(momentum(), linear));
+    EXPECT_LT(scene.energy() - SweptScene::gravity * (10 * scene.position[lower].z() + scene.position[upper].z()),
+              kinetic);
+    EXPECT_LE(scene.energy(), before + 1e-12);
+}
+
+TEST(PositionSweeps, WakeWhomTheyMoveAndGiveNoMotionToSleepers) {
+    SweptScene scene;
+    const BodyIndex ground = scene.addFixed();
+    const BodyIndex x = scene.addBody();
+    const BodyIndex sleeper = scene.addBody();
+    scene.asleep[x] = scene.asleep[sleeper] = 1;
+    scene.v[x] = Vec3(0, 0, -1);
+    scene.touch(x, ground, up, -0.03);
+    scene.touch(sleeper, x, right, -0.001);
+    scene.run();
+    EXPECT_EQ(scene.asleep[x], 0);
+    EXPECT_EQ(scene.woken[x], WakeReason::displaced);
+    EXPECT_EQ(scene.asleep[sleeper], 1);
+    EXPECT_EQ(scene.v[sleeper], Vec3::Zero());
+}
+
+TEST(PositionSweeps, LeaveWhatIsNotFiniteWhereItIs) {
+    SweptScene scene;
+    const BodyIndex ground = scene.addFixed();
+    const BodyIndex x = scene.addBody();
+    const BodyIndex y = scene.addBody();
+    scene.touch(x, ground, up, -INFINITY);
+    scene.touch(y, ground, up, -0.03);
+    scene.run();
+    EXPECT_EQ(scene.position[x], Vec3::Zero());
+    EXPECT_NEAR(scene.position[y].z(), 0.025, 1e-12);
+}
+
+/// A column of bodies, all too deep in each other.
+SweptScene sweptLayers() {
+    SweptScene scene;
+    scene.addFixed();
+    for (int i = 1; i <= 40; ++i) {
+        scene.addBody(Vec3(0, 0, 0.1 * i));
+        scene.v.back() = Vec3(0, 0, -1);
+        scene.touch(static_cast<BodyIndex>(i), static_cast<BodyIndex>(i - 1), up, -0.012);
+    }
+    return scene;
+}
+
+TEST(PositionSweeps, RepeatThemselvesWhateverTheyDidBefore) {
+    PositionSweeps used;
+    SweptScene other;
+    other.addBody();
+    other.addFixed();
+    other.touch(0, 1, up, -0.5);
+    other.runWith(used);
+    SweptScene first = sweptLayers();
+    SweptScene second = sweptLayers();
+    first.run();
+    second.runWith(used);
+    EXPECT_EQ(first.position, second.position);
+    EXPECT_EQ(first.v, second.v);
+}
+
+}  // namespace
+}  // namespace cairn::test
