@@ -240,7 +240,7 @@ TEST_F(CommandLine, outputsThatCannotBeWrittenEndTheRun) {
 /// A hull whose points all lie above the origin of their frame stands on the ground, with that origin below it.
 TEST_F(CommandLine, aHullIsNotLostWhereTheOriginOfItsFrameIs) {
     write("hull.json", R"({"name":"hull","duration":0.1,"gravity":[0,0,-10],"materials":{"oak":{"density":800}},
-        "bodies":[{"shape":{"type":"half_space","normal":[0,0,1],"offset":0},"material":"oak","fixed":true},
+        "bodies":[{"shape":{"type":"plane","normal":[0,0,1],"offset":0},"material":"oak","fixed":true},
           {"shape":{"type":"hull","points":[[0,0,0.3],[1,0,0.3],[0,1,0.3],[0,0,1.3]]},"material":"oak",
            "position":[0,0,-0.3]}]})");
     const Finished done = cairn({"run", "hull.json", "--threads", "1", "--json"});

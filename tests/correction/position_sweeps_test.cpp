@@ -176,7 +176,7 @@ SweptScene sweptLayers() {
     scene.addFixed();
     for (int i = 1; i <= 40; ++i) {
         scene.addBody(Vec3(0, 0, 0.1 * i));
-        scene.v.back() = Vec3(0, 0, -1);
+        scene.v[scene.v.size() - 1] = Vec3(0, 0, -1);
         scene.touch(static_cast<BodyIndex>(i), static_cast<BodyIndex>(i - 1), up, -0.012);
     }
     return scene;
