@@ -30,9 +30,10 @@ bool isDriven(const WorldState& world, std::size_t group) {
     });
 }
 
-/// Whether the bodies of a joint slept through the resolution. @pre one of them can move
+/// Whether the bodies of a joint slept through the resolution. One that overflowed in this step can no longer move.
 bool isAsleep(const BodyStorage& bodies, const Joint& joint) {
-    return bodies.asleep[isMovable(bodies.kind, joint.a) ? joint.a : joint.b] != 0;
+    const auto sleeps = [&](BodyIndex body) { return isMovable(bodies.kind, body) && bodies.asleep[body] != 0; };
+    return sleeps(joint.a) || sleeps(joint.b);
 }
 
 void removeBroken(WorldState& world, std::uint32_t slot) {
