@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -29,20 +30,22 @@ struct BodyArrays {
     FieldArray<Shape> shape;
     FieldArray<std::uint32_t> material;
     FieldArray<std::string> name;
-    FieldArray<Vec3> position;       ///< centre of mass [m, W]
-    FieldArray<Quat> orientation;    ///< B to W
-    FieldArray<Vec3> v;              ///< [m/s, W]
-    FieldArray<Vec3> w;              ///< [rad/s, W]
-    FieldArray<Vec3> p_BS;           ///< origin of the shape's frame S, which World::pose() is about [m, B]
-    FieldArray<Quat> R_BS;           ///< S to B
-    FieldArray<double> mass;         ///< [kg], of the description also for fixed bodies
-    FieldArray<Vec3> inertia_B;      ///< principal moments [kg·m², B]
-    FieldArray<double> mass_inv;     ///< [1/kg]; 0 = fixed
-    FieldArray<Vec3> inertiaInv_B;   ///< [1/(kg·m²), B]; 0 = fixed
-    FieldArray<Mat3> inertiaInv_W;   ///< [1/(kg·m²), W]; follows the orientation
-    FieldArray<double> r_max;        ///< largest distance of a surface point from the centre [m]
-    FieldArray<Vec3> linear_step;    ///< ℓ: displacement by the linear velocity in this time step [m, W]
-    FieldArray<Vec3> force, torque;  ///< for the next step [N], [N·m, W]
+    FieldArray<Vec3> position;              ///< centre of mass [m, W]
+    FieldArray<Quat> orientation;           ///< B to W
+    FieldArray<Vec3> detected_position;     ///< where the body was when its contacts were found [m, W]; NaN = never
+    FieldArray<Quat> detected_orientation;  ///< likewise
+    FieldArray<Vec3> v;                     ///< [m/s, W]
+    FieldArray<Vec3> w;                     ///< [rad/s, W]
+    FieldArray<Vec3> p_BS;                  ///< origin of the shape's frame S, which World::pose() is about [m, B]
+    FieldArray<Quat> R_BS;                  ///< S to B
+    FieldArray<double> mass;                ///< [kg], of the description also for fixed bodies
+    FieldArray<Vec3> inertia_B;             ///< principal moments [kg·m², B]
+    FieldArray<double> mass_inv;            ///< [1/kg]; 0 = fixed
+    FieldArray<Vec3> inertiaInv_B;          ///< [1/(kg·m²), B]; 0 = fixed
+    FieldArray<Mat3> inertiaInv_W;          ///< [1/(kg·m²), W]; follows the orientation
+    FieldArray<double> r_max;               ///< largest distance of a surface point from the centre [m]
+    FieldArray<Vec3> linear_step;           ///< ℓ: displacement by the linear velocity in this time step [m, W]
+    FieldArray<Vec3> force, torque;         ///< for the next step [N], [N·m, W]
     FieldArray<Vec3> constant_force, constant_torque;  ///< in every step [N], [N·m, W]
     FieldArray<std::uint8_t> asleep;                   ///< 1 = asleep
     FieldArray<std::uint8_t> resting;                  ///< 1 = awake, but nothing changed since it came to rest
@@ -78,6 +81,11 @@ Type blank() {
     }
 }
 
+/// A place that is equal to none.
+inline Vec3 nowhere() {
+    return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+}
+
 /// A row of the list.
 template <class Type>
 struct BodyField {
@@ -107,6 +115,8 @@ inline constexpr auto body_fields = std::tuple{
     BodyField{&BodyArrays::name, "name", "", Change::calls, Sync::on_migration},
     BodyField{&BodyArrays::position, "position", "m", Change::steps, Sync::always},
     BodyField{&BodyArrays::orientation, "orientation", "1", Change::steps, Sync::always},
+    BodyField{&BodyArrays::detected_position, "detected_position", "m", Change::steps, Sync::on_migration, &nowhere},
+    BodyField{&BodyArrays::detected_orientation, "detected_orientation", "1", Change::steps, Sync::on_migration},
     BodyField{&BodyArrays::v, "v", "m/s", Change::steps, Sync::always},
     BodyField{&BodyArrays::w, "w", "rad/s", Change::steps, Sync::always},
     BodyField{&BodyArrays::p_BS, "p_BS", "m", Change::calls, Sync::on_creation},

@@ -22,14 +22,14 @@ Bounds boundsAhead(const Bounds& bounds, const Vec3& way) {
 }
 
 /// Adds sorted pairs to sorted pairs, from behind, so that nothing is written over before its turn.
-void merge(std::span<const BodyPair> added, std::vector<BodyPair>& pairs) {
+void merge(std::span<const BodyPair> added, std::vector<ContactPair>& pairs) {
     std::size_t left = pairs.size();
     resizeTightly(pairs, pairs.size() + added.size());
     for (std::size_t place = pairs.size(); !added.empty(); --place) {
         if (left > 0 && added.back() < pairs[left - 1]) {
             pairs[place - 1] = pairs[--left];
         } else {
-            pairs[place - 1] = added.back();
+            pairs[place - 1] = {added.back()};
             added = added.first(added.size() - 1);
         }
     }
@@ -43,13 +43,46 @@ void NearPairs::update(const NearPairsInput& input, BroadPhase& broad_phase, con
     if (!searched_) return;
     cover(input, !searched_before, executor);
     broad_phase.findPairs({.kind = input.kind, .bounds = covered_, .still = stays_}, executor, new_pairs_);
-    std::erase_if(pairs_, [&](const BodyPair& pair) { return (stays_[pair.a] & stays_[pair.b]) == 0; });
+    dropLeft();
     merge(new_pairs_, pairs_);
 }
 
-void NearPairs::forget() {
+void NearPairs::begin(std::span<const Contact> contacts) {
     pairs_.clear();
+    for (std::uint32_t i = 0; i < contacts.size(); ++i) {
+        const BodyPair pair{contacts[i].a, contacts[i].b};
+        if (pairs_.empty() || pairs_.back() != pair) appendTightly(pairs_, {pair, i, 0});
+        ++pairs_.back().count;
+    }
     kind_.clear();
+}
+
+void NearPairs::drop(std::span<const std::uint8_t> others, std::vector<BodyPair>& touching) {
+    for (std::size_t i = 0; i < std::min(others.size(), kind_.size()); ++i) {
+        if (others[i] != 0) kind_[i] = BodyKind::hole;
+    }
+    std::erase_if(pairs_, [&](const ContactPair& pair) {
+        const bool drops = (others[pair.a] | others[pair.b]) != 0;
+        if (drops && pair.touches()) touching.push_back(pair);
+        return drops;
+    });
+}
+
+/// Drops the pairs that were searched again and not found; of those that were found only the new ones remain in
+/// new_pairs_.
+void NearPairs::dropLeft() {
+    std::size_t next = 0;
+    std::size_t kept = 0;
+    std::erase_if(pairs_, [&](const ContactPair& pair) {
+        if ((stays_[pair.a] & stays_[pair.b]) != 0) return false;
+        while (next < new_pairs_.size() && new_pairs_[next] < pair) new_pairs_[kept++] = new_pairs_[next++];
+        const bool found = next < new_pairs_.size() && new_pairs_[next] == pair;
+        if (found) ++next;
+        return !found && !pair.touched;
+    });
+    const auto rest = std::move(new_pairs_.begin() + static_cast<std::ptrdiff_t>(next), new_pairs_.end(),
+                                new_pairs_.begin() + static_cast<std::ptrdiff_t>(kept));
+    new_pairs_.erase(rest, new_pairs_.end());
 }
 
 /// @return whether a body has left the bounds that it was searched with

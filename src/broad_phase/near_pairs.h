@@ -5,9 +5,24 @@
 #include <span>
 #include <vector>
 
+#include "body/contact.h"
 #include "broad_phase/broad_phase.h"
 
 namespace cairn {
+
+/// Two bodies near each other and their contacts, which stand side by side. It lives as long as the bounds that the two
+/// were searched with overlap, and until the end of the step in which they part.
+struct ContactPair : BodyPair {
+    std::uint32_t first = 0;         ///< index of the first contact of the last detection
+    std::uint32_t count = untested;  ///< number of contacts
+    bool touched = false;            ///< at the end of the last step
+
+    /// Stands for the number before the first test.
+    static constexpr std::uint32_t untested = UINT32_MAX;
+
+    bool isTested() const { return count != untested; }
+    bool touches() const { return count != 0 && isTested(); }
+};
 
 /// What near pairs depend on; one entry per slot.
 struct NearPairsInput {
@@ -26,16 +41,23 @@ class NearPairs {
   public:
     /// Brings the pairs up to date.
     void update(const NearPairsInput& input, BroadPhase& broad_phase, const Executor& executor);
-    /// To be called when the bodies are others: the next update begins anew, with the memory of this one.
-    void forget();
-    /// Sorted by (a, b), each once; among them all pairs (a < b, not both fixed) whose bounds overlap.
-    std::span<const BodyPair> pairs() const { return pairs_; }
+    /// To be called when all bodies are others: the next update begins anew, with the memory of this one and with the
+    /// pairs of the contacts. @param contacts sorted by (a, b)
+    void begin(std::span<const Contact> contacts);
+    /// To be called when some bodies are others: drops their pairs.
+    /// @param others [slots] 1 = its body is another, or gone @param touching gets those that touch, in their order
+    void drop(std::span<const std::uint8_t> others, std::vector<BodyPair>& touching);
+    /// Sorted by (a, b), each once; among them all pairs (a < b, not both fixed) whose bounds overlap. New ones
+    /// are untested.
+    std::span<ContactPair> pairs() { return pairs_; }
+    std::span<const ContactPair> pairs() const { return pairs_; }
 
   private:
     bool findLeft(const NearPairsInput& input, const Executor& executor);
     void cover(const NearPairsInput& input, bool all, const Executor& executor);
+    void dropLeft();
 
-    std::vector<BodyPair> pairs_;
+    std::vector<ContactPair> pairs_;
     std::vector<Bounds> covered_;      ///< [slots] bounds of the last search [m, W]
     std::vector<BodyKind> kind_;       ///< [slots] at the last search
     std::vector<std::uint8_t> stays_;  ///< [slots] 1 = within covered_

@@ -1,12 +1,10 @@
 #include "world/events.h"
 
-#include <tuple>
-
 namespace cairn {
 
 namespace {
 
-/// The contacts of one pair, which stand side by side, as one event.
+/// The contacts of one pair as one event.
 Event pairEvent(const WorldState& world, std::span<const Contact> contacts) {
     const Contact* deepest = contacts.data();
     Vec3 impulse = Vec3::Zero();
@@ -23,44 +21,30 @@ Event pairEvent(const WorldState& world, std::span<const Contact> contacts) {
             .impulse = impulse};
 }
 
-/// Length of the run of contacts of one pair that begins at an index.
-std::size_t runLength(std::span<const Contact> contacts, std::size_t begin) {
-    std::size_t end = begin + 1;
-    while (end < contacts.size() && contacts[end].a == contacts[begin].a && contacts[end].b == contacts[begin].b) ++end;
-    return end - begin;
-}
-
-/// Order of pairs: by indices as the contacts are, then by generations, so that the pair of a body that was replaced
-/// ends before that of its successor begins.
-bool before(const TouchingPair& x, const TouchingPair& y) {
-    return std::tie(x.a.index, x.b.index, x.a.generation, x.b.generation) <
-           std::tie(y.a.index, y.b.index, y.a.generation, y.b.generation);
-}
-
-/// Merges the pairs of the last step with those of this one.
+/// Tells which pairs began to touch, touched on and parted, in their order.
 void collectContacts(WorldState& world) {
     EventLog& log = world.events;
-    const std::span<const Contact> contacts = world.data.contacts;
-    std::size_t old = 0;
-    const auto end = [&] {
-        const TouchingPair& pair = log.touching_before[old++];
-        log.events.push_back({.kind = EventKind::contact_ended, .a = pair.a, .b = pair.b});
+    const std::vector<std::uint32_t>& generation = world.data.generation;
+    std::span<const BodyPair> removed = world.data.pairs.removed();
+    const auto endRemoved = [&] {
+        const auto [a, b] = removed.front();
+        removed = removed.subspan(1);
+        log.events.push_back({.kind = EventKind::contact_ended, .a = {a, generation[a]}, .b = {b, generation[b]}});
     };
-    for (std::size_t i = 0; i < contacts.size();) {
-        const std::size_t length = runLength(contacts, i);
-        Event event = pairEvent(world, contacts.subspan(i, length));
-        i += length;
-        const TouchingPair pair{event.a, event.b};
-        while (old < log.touching_before.size() && before(log.touching_before[old], pair)) end();
-        event.kind = EventKind::contact_begun;
-        if (old < log.touching_before.size() && log.touching_before[old] == pair) {
-            ++old;
-            event.kind = EventKind::contact_persisted;
+    for (const ContactPair& pair : world.data.pairs.pairs()) {
+        // The pair of a body that was replaced ends before that of its successor begins.
+        while (!removed.empty() && removed.front() <= pair) endRemoved();
+        if (pair.touches()) {
+            if (pair.touched && log.level != EventLevel::all) continue;
+            Event event = pairEvent(world, std::span(world.data.contacts).subspan(pair.first, pair.count));
+            event.kind = pair.touched ? EventKind::contact_persisted : EventKind::contact_begun;
+            log.events.push_back(event);
+        } else if (pair.touched) {
+            log.events.push_back(
+                {.kind = EventKind::contact_ended, .a = world.bodies.idOf(pair.a), .b = world.bodies.idOf(pair.b)});
         }
-        if (event.kind == EventKind::contact_persisted && log.level != EventLevel::all) continue;
-        log.events.push_back(event);
     }
-    while (old < log.touching_before.size()) end();
+    while (!removed.empty()) endRemoved();
 }
 
 void collectSleep(WorldState& world) {
@@ -85,12 +69,6 @@ void beginEvents(WorldState& world) {
     if (log.level == EventLevel::none) return;
     log.asleep_before.assign(world.bodies.asleep.begin(), world.bodies.asleep.end());
     log.faults_before = world.faults.size();
-    log.touching_before.clear();
-    const std::span<const Contact> contacts = world.data.contacts;
-    for (std::size_t i = 0; i < contacts.size(); i += runLength(contacts, i)) {
-        const Contact& c = contacts[i];
-        log.touching_before.push_back({{c.a, world.data.generation[c.a]}, {c.b, world.data.generation[c.b]}});
-    }
 }
 
 void collectEvents(WorldState& world) {

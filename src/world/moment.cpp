@@ -2,8 +2,6 @@
 
 #include <tuple>
 
-#include "world/detection.h"
-
 namespace cairn {
 
 namespace {
@@ -19,7 +17,7 @@ void copyFields(Change change, const BodyArrays& from, BodyArrays& to) {
 template <class Part>
 auto sharedNames(Part& p) {
     return std::tie(p.springs, p.joints, p.gravity, p.global_acceleration, p.steps, p.steps_at_start, p.time,
-                    p.time_at_start, p.memory, p.statistics, p.faults);
+                    p.time_at_start, p.statistics, p.faults);
 }
 
 std::shared_ptr<const LastingPart> lastingPartOf(const WorldState& world) {
@@ -62,11 +60,9 @@ void loadMoment(const MomentState& moment, WorldState& world) {
     world.events.level = moment.event_level;
     world.events.events = moment.events;
     // What the last step left for viewers is that of another step.
-    world.data.bounds.clear();
-    forgetPlaces(world.data.still);
+    world.data.pairs.adopt(world.data.contacts);
     world.data.contacts_of.begin.clear();
     world.ties.forget();
-    world.data.near_pairs.forget();
     world.trace.correction.clear();
     world.trace.shock_stage.clear();
 }

@@ -30,7 +30,6 @@ struct MomentState {
     std::vector<std::uint32_t> contact_generation;  ///< StepData::generation
     std::vector<Contact> contacts;
     Batches batches;
-    ContactMemory memory;
     Statistics statistics;
     std::vector<FaultInfo> faults;
     EventLevel event_level = EventLevel::none;

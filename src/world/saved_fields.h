@@ -127,7 +127,7 @@ void jointFields(Stream& stream, AnyJoint& joint) {
     field(stream, joint.angular_impulse);
 }
 
-/// What World::contacts() shows and removeBody() needs; the rest of a contact is of use within a step only.
+/// What World::contacts() shows and the next contacts inherit; the rest of a contact is of use within a step only.
 template <class Stream, class AnyContact>
 void contactFields(Stream& stream, AnyContact& contact) {
     field(stream, contact.a);
@@ -135,6 +135,7 @@ void contactFields(Stream& stream, AnyContact& contact) {
     field(stream, contact.point);
     field(stream, contact.normal);
     field(stream, contact.distance);
+    field(stream, contact.reference_impulse);
     field(stream, contact.impulse);
     field(stream, contact.angular_impulse);
 }
@@ -146,16 +147,6 @@ void batchArrays(Stream& stream, AnyBatches& batches) {
     array(stream, batches.body_begin);
     array(stream, batches.contact_begin);
     array(stream, batches.batch_of_contact);
-}
-
-template <class Stream, class Entry>
-void memoryFields(Stream& stream, Entry& entry) {
-    field(stream, entry.a);
-    field(stream, entry.b);
-    field(stream, entry.place_a);
-    field(stream, entry.place_b);
-    field(stream, entry.impulse);
-    field(stream, entry.reference_impulse);
 }
 
 template <class AnyDiagnostics>

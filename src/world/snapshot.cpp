@@ -223,18 +223,18 @@ bool areBelow(const std::vector<std::uint32_t>& indices, std::size_t limit) {
     return std::ranges::all_of(indices, [&](std::uint32_t index) { return index < limit; });
 }
 
-bool areSorted(BodyIndex a, BodyIndex b, BodyIndex next_a, BodyIndex next_b) {
-    return a < next_a || (a == next_a && b <= next_b);
-}
-
 void loadContacts(ByteReader& in, StepData& data) {
     in.getArray(data.generation);
     const auto count = in.get<std::uint64_t>();
+    BodyPair last;
     for (auto left = count; left > 0; --left) {
         Contact& contact = data.contacts.emplace_back();
         contactFields(in, contact);
         const bool known = contact.a < contact.b && contact.b < data.generation.size();
         if (!known) in.refuse("a contact of an unknown body");
+        const BodyPair pair{contact.a, contact.b};
+        if (pair < last) in.refuse("contacts out of order");
+        last = pair;
     }
     Batches& batches = data.batches;
     batchArrays(in, batches);
@@ -244,19 +244,6 @@ void loadContacts(ByteReader& in, StepData& data) {
                        batches.body_begin.size() == batches.contact_begin.size() &&
                        batches.batch_of_contact.size() == count && areBelow(batches.batch_of_contact, batches.size());
     if (!sound) in.refuse("batches that do not fit the contacts");
-}
-
-void loadMemory(ByteReader& in, std::size_t slots, ContactMemory& memory) {
-    std::vector<ContactMemory::Entry> entries;
-    for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
-        ContactMemory::Entry entry{};
-        memoryFields(in, entry);
-        const bool known = entry.a < slots && entry.b < slots;
-        const bool sorted = entries.empty() || areSorted(entries.back().a, entries.back().b, entry.a, entry.b);
-        if (!known || !sorted) in.refuse("a remembered contact out of order");
-        entries.push_back(entry);
-    }
-    memory.restore(std::move(entries));
 }
 
 void saveFaults(const std::vector<FaultInfo>& faults, ByteWriter& out) {
@@ -312,7 +299,6 @@ void saveWorld(const WorldState& world, ByteWriter& out) {
     out.putArray(std::span(world.data.generation));
     saveList(out, world.data.contacts, [&](const Contact& contact) { contactFields(out, contact); });
     batchArrays(out, world.data.batches);
-    saveList(out, world.memory.entries(), [&](const ContactMemory::Entry& entry) { memoryFields(out, entry); });
     statisticsFields(out, world.statistics);
     saveFaults(world.faults, out);
     out.put(world.events.level);
@@ -328,11 +314,11 @@ std::unique_ptr<WorldState> loadWorld(ByteReader& in) {
     loadSprings(in, world->bodies, world->springs);
     loadJoints(in, world->bodies, world->joints);
     loadContacts(in, world->data);
-    loadMemory(in, world->bodies.slots(), world->memory);
     statisticsFields(in, world->statistics);
     loadFaults(in, world->faults);
     loadEvents(in, world->events);
     checkWorld(in, *world);
+    world->data.pairs.adopt(world->data.contacts);
     return world;
 }
 

@@ -2,10 +2,10 @@
 #include <chrono>
 
 #include "integration/integration.h"
+#include "pairs/warm_start.h"
 #include "sleeping/resting.h"
 #include "sleeping/sleeping.h"
 #include "world/checks.h"
-#include "world/detection.h"
 #include "world/diagnostics.h"
 #include "world/events.h"
 #include "world/joints.h"
@@ -62,6 +62,17 @@ std::size_t scheduleSharedFirst(WorldState& world) {
     return static_cast<std::size_t>(shared);
 }
 
+/// Whether contacts begin with the impulses that the last step ended with.
+WarmStart warmStart(const WorldState& world) {
+    return world.settings.resolution.resolution == ResolutionKind::accelerated_sweeps ? WarmStart::on : WarmStart::off;
+}
+
+void detect(WorldState& world) {
+    world.data.pairs.detect({world.bodies, world.materials, *world.broad_phase, world.data.excluded,
+                             world.settings.detection.contact_margin, world.executor},
+                            world.data.contacts);
+}
+
 void buildBatchesStage(WorldState& world) {
     StepData& data = world.data;
     buildBatches(world.bodies.kind, data.contacts, data.batch_scratch, data.batches, world.joints);
@@ -101,14 +112,11 @@ void correctStage(WorldState& world) {
     // When bodies touched each other can be told from what the first detection found only.
     const std::int64_t rounds = touching ? 1 : settings.correction_rounds;
     for (std::int64_t round = 2; round <= rounds; ++round) {
-        if (!detectDisplaced(world.bodies, world.materials, *world.broad_phase, settings.penetration_threshold,
-                             world.executor, data)) {
-            break;
-        }
+        if (!isAnyDisplaced(world.bodies, settings.penetration_threshold)) break;
+        detect(world);
         buildBatchesStage(world);
         correctBatches(world);
     }
-    forgetDisplaced(world.bodies, data.still);
     if (!traced) return;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         world.trace.correction[i] = bodies.position[i] - world.trace.correction[i];
@@ -173,12 +181,6 @@ void resolveStage(WorldState& world) {
     const GravityDampingSettings& damping = world.settings.gravity_damping;
     bodies.fall = (damping.damping_threshold > 0 ? 1 - damping.damping : 1.0) * world.settings.timeStep() *
                   (world.gravity + world.global_acceleration);
-    const bool remembers = world.settings.resolution.resolution == ResolutionKind::accelerated_sweeps;
-    if (remembers) {
-        const auto known =
-            data.has_history ? std::span<const std::uint8_t>(data.still.still) : std::span<const std::uint8_t>();
-        world.memory.recall(world.bodies, known, data.contacts, world.executor);
-    }
     buildJointBlocks(world);
     data.resolution_counts.assign(world.resolutions.size(), {});
     const auto resolve = [&](std::uint32_t batch, int thread, const Executor& executor) {
@@ -193,8 +195,6 @@ void resolveStage(WorldState& world) {
     for (std::size_t i = 0; i < shared; ++i) resolve(data.schedule[i], 0, world.executor);
     const Executor alone;
     forBatches(data, shared, world.executor, [&](std::uint32_t batch, int thread) { resolve(batch, thread, alone); });
-    if (remembers) world.memory.store(world.bodies, data.still.unmoved, data.contacts, world.executor);
-    data.has_history = remembers;
     finishJoints(world);
     quarantine(world);
     measureIfAsked(world, Measured::resolution);
@@ -221,8 +221,8 @@ void sleepStage(WorldState& world) {
 }
 
 void outputStage(WorldState& world) {
-    world.data.generation.assign(world.bodies.generation.begin(), world.bodies.generation.end());
     collectEvents(world);
+    world.data.generation.assign(world.bodies.generation.begin(), world.bodies.generation.end());
     summarize(world);
 }
 
@@ -252,8 +252,9 @@ void stepWorld(WorldState& world) {
     });
     measureIfAsked(world, Measured::positions);
     timed(statistics, Stage::detection, [&] {
-        detectContacts(world.bodies, world.materials, *world.broad_phase, world.settings.detection.contact_margin,
-                       world.executor, world.data);
+        world.data.pairs.beginStep(world.bodies, world.data.generation, world.executor);
+        beginContacts(world.data.contacts, warmStart(world), world.executor);
+        detect(world);
     });
     timed(statistics, Stage::batches, [&] { buildBatchesStage(world); });
     timed(statistics, Stage::correction, [&] { correctStage(world); });

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world/detection.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -26,8 +25,6 @@ void WorldState::applySettings(const Settings& s) {
     if (resolutions.size() != threads || s.resolution.resolution != settings.resolution.resolution) {
         resolutions.clear();
         for (std::size_t t = 0; t < threads; ++t) resolutions.push_back(makeResolution(s.resolution.resolution));
-        // What contacts begin with is the resolution's.
-        forgetPlaces(data.still);
     }
     executor = Executor(static_cast<int>(threads));
     if (s.steps_per_second != settings.steps_per_second) {
@@ -67,13 +64,13 @@ std::span<const Material> World::materials() const {
 void World::setDefaultPairProperties(const PairProperties& properties) {
     state_->lasting.reset();
     state_->materials.setDefault(properties);
-    forgetPlaces(state_->data.still);
+    state_->data.pairs.forgetContacts();
 }
 
 void World::setPairProperties(MaterialId a, MaterialId b, const PairProperties& properties) {
     state_->lasting.reset();
     state_->materials.setPair(a, b, properties);
-    forgetPlaces(state_->data.still);
+    state_->data.pairs.forgetContacts();
 }
 
 PairProperties World::pairProperties(MaterialId a, MaterialId b) const {

@@ -180,7 +180,6 @@ void World::removeBody(BodyId id) {
     w.ties.list(w.springs, w.joints, w.bodies.slots());
     for (const std::uint32_t slot : w.ties.springsOf(i)) removeTie(w.springs[slot], i, w.bodies.state());
     for (const std::uint32_t slot : w.ties.jointsOf(i)) removeTie(w.joints[slot], i, w.bodies.state());
-    w.memory.forget(i);
     w.bodies.release(i);
 }
 

@@ -133,9 +133,9 @@ BodyTrace World::trace(BodyId id) const {
     const BodyIndex i = state_->bodies.indexOf(id);
     const StepData& data = state_->data;
     BodyTrace trace;
-    if (i < data.bounds.size()) {
-        trace.bounds_lower = data.bounds[i].lower;
-        trace.bounds_upper = data.bounds[i].upper;
+    if (i < data.pairs.bounds().size()) {
+        trace.bounds_lower = data.pairs.bounds()[i].lower;
+        trace.bounds_upper = data.pairs.bounds()[i].upper;
         trace.level = state_->broad_phase->level(i);
     }
     if (i < state_->trace.correction.size()) trace.correction = state_->trace.correction[i];

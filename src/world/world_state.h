@@ -10,7 +10,6 @@
 #include "body/contact.h"
 #include "body/material_table.h"
 #include "broad_phase/broad_phase.h"
-#include "broad_phase/near_pairs.h"
 #include "cairn/world.h"
 #include "correction/correction.h"
 #include "geometry/geometry.h"
@@ -18,10 +17,9 @@
 #include "integration/joint_flight.h"
 #include "integration/springs.h"
 #include "joints/joint_groups.h"
+#include "pairs/pair_table.h"
 #include "parallel/executor.h"
-#include "persistence/contact_memory.h"
 #include "resolution/resolution.h"
-#include "world/found_contacts.h"
 #include "world/ties.h"
 
 namespace cairn {
@@ -51,31 +49,9 @@ struct MeasuredData {
     std::vector<Vec3> w;  ///< [slots] at the last point [rad/s, W]
 };
 
-/// Which bodies did not move between two detections: contacts of two such bodies are what they were.
-struct StillBodies {
-    /// Where a body was.
-    struct Place {
-        Vec3 position = Vec3::Zero();
-        Quat orientation = Quat::Identity();
-        std::uint32_t generation = 0;
-        BodyKind kind = BodyKind::hole;  ///< hole = unknown
-    };
-    std::vector<Place> places;          ///< [slots] at the last detection
-    std::vector<std::uint8_t> still;    ///< [slots] 1 = at the same place as at the last step's detection
-    std::vector<std::uint8_t> found;    ///< [slots] 1 = contacts with others of these are known already
-    std::vector<std::uint8_t> unmoved;  ///< [slots] 1 = still, and left there by the correction
-    double margin = 0;                  ///< contact margin of the last detection [m]
-    bool all_tested = false;            ///< the last detection tested every near pair: joints kept none apart
-};
-
 /// The arrays that one stage leaves to the next; nothing else travels between stages. Named with their producer.
 struct StepData {
-    std::vector<Bounds> bounds;                  ///< detection: [slots] grown by the contact margin [m, W]
-    NearPairs near_pairs;                        ///< detection
-    StillBodies still;                           ///< detection: which bodies are where they were
-    std::vector<FoundContacts> thread_contacts;  ///< detection: [threads], joined into contacts
-    std::vector<std::pair<FoundContacts::Piece, std::size_t>> rising;  ///< detection: pieces that move up, and where to
-    bool has_history = false;             ///< resolution: the contacts' impulses are what the next step begins with
+    PairTable pairs;                      ///< detection: which contacts are of which two bodies
     std::vector<Contact> contacts;        ///< detection, changed by correction and resolution: sorted by (a, b)
     ContactsOfBodies contacts_of;         ///< batches: [slots] contact indices
     Batches batches;                      ///< batches: groups in canonical order
@@ -105,20 +81,12 @@ struct TraceData {
     std::vector<std::int32_t> shock_stage;  ///< [slots] subset of the shock propagation; −1 = none
 };
 
-/// Two bodies that touched in the last step.
-struct TouchingPair {
-    BodyId a, b;
-
-    friend bool operator==(const TouchingPair&, const TouchingPair&) = default;
-};
-
 /// The events of the last step and what finding them takes.
 struct EventLog {
     EventLevel level = EventLevel::none;
     std::vector<Event> events;
-    std::vector<TouchingPair> touching_before;  ///< sorted, at the beginning of the step
-    std::vector<std::uint8_t> asleep_before;    ///< [slots] at the beginning of the step
-    std::size_t faults_before = 0;              ///< at the beginning of the step
+    std::vector<std::uint8_t> asleep_before;  ///< [slots] at the beginning of the step
+    std::size_t faults_before = 0;            ///< at the beginning of the step
 };
 
 struct LastingPart;
@@ -136,7 +104,6 @@ struct WorldState {
     Settings settings;
     Executor executor;
     std::unique_ptr<BroadPhase> broad_phase;
-    ContactMemory memory;  ///< of the last step's contacts, for resolutions that begin where they ended
     std::vector<std::unique_ptr<Correction>> corrections;  ///< [threads]
     std::vector<std::unique_ptr<Resolution>> resolutions;  ///< [threads]
 

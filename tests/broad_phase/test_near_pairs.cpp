@@ -55,7 +55,7 @@ struct Moving {
         }
         return pairs;
     }
-    std::vector<BodyPair> overlappingOf(std::span<const BodyPair> near) const {
+    std::vector<BodyPair> overlappingOf(std::span<const ContactPair> near) const {
         std::vector<BodyPair> pairs;
         for (const BodyPair& pair : near) {
             if (bodies.bounds[pair.a].overlaps(bodies.bounds[pair.b])) pairs.push_back(pair);
@@ -113,6 +113,57 @@ TEST(NearPairs, AreSearchedRarelyWhileBodiesMoveOn) {
     const int searches = grids.searches;
     for (int n = 0; n < 80; ++n) near.update(moving.input(), grids, Executor(1));
     EXPECT_EQ(grids.searches, searches) << "nobody moves";
+}
+
+TEST(NearPairs, KeepTheirContactsUntilTheyPart) {
+    Moving moving;
+    moving.add(Vec3::Zero(), 0.5, Vec3(1, 0, 0));
+    moving.add(Vec3(0.9, 0, 0), 0.5, Vec3(1, 0, 0));
+    moving.add(Vec3(-0.9, 0, 0), 0.5, Vec3(-9, 0, 0));
+    CountedGrids grids;
+    NearPairs near;
+    near.update(moving.input(), grids, Executor(1));
+    ASSERT_EQ(near.pairs().size(), 2);
+    EXPECT_FALSE(near.pairs()[0].isTested());
+    near.pairs()[0].count = 7;
+    for (int n = 0; n < 60; ++n) {
+        for (BodyIndex i = 0; i < moving.bodies.size(); ++i) moving.move(i, step);
+        near.update(moving.input(), grids, Executor(1));
+    }
+    EXPECT_GT(grids.searches, 1);
+    ASSERT_EQ(near.pairs().size(), 1) << "the last body left";
+    EXPECT_EQ(near.pairs()[0].count, 7) << "found again, it is the same pair";
+}
+
+TEST(NearPairs, BeginWithThePairsOfContacts) {
+    Moving moving;
+    for (int i = 0; i < 3; ++i) moving.add(Vec3(0.9 * i, 0, 0), 0.5, Vec3::Zero());
+    const std::vector<Contact> contacts = {{.a = 0, .b = 1}, {.a = 1, .b = 2}, {.a = 1, .b = 2}};
+    CountedGrids grids;
+    NearPairs near;
+    near.begin(contacts);
+    near.update(moving.input(), grids, Executor(1));
+    ASSERT_EQ(near.pairs().size(), 2);
+    EXPECT_EQ(near.pairs()[0].count, 1);
+    EXPECT_EQ(near.pairs()[1].first, 1);
+    EXPECT_EQ(near.pairs()[1].count, 2);
+}
+
+TEST(NearPairs, OfBodiesThatAreOthersBeginAnew) {
+    Moving moving;
+    for (int i = 0; i < 4; ++i) moving.add(Vec3(0.9 * i, 0, 0), 0.5, Vec3::Zero());
+    CountedGrids grids;
+    NearPairs near;
+    near.update(moving.input(), grids, Executor(1));
+    ASSERT_EQ(near.pairs().size(), 3);
+    near.pairs()[0].count = 1;
+    std::vector<BodyPair> touching;
+    near.drop(std::vector<std::uint8_t>{0, 1, 0, 0}, touching);
+    EXPECT_EQ(touching, (std::vector<BodyPair>{{0, 1}})) << "the other pair did not touch";
+    EXPECT_EQ(near.pairs().size(), 1);
+    near.update(moving.input(), grids, Executor(1));
+    ASSERT_EQ(near.pairs().size(), 3);
+    EXPECT_FALSE(near.pairs()[0].isTested());
 }
 
 TEST(NearPairs, BodiesOfNoNumberAreSearchedAnew) {

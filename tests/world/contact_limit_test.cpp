@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "world/found_contacts.h"
+#include "pairs/found_contacts.h"
 
 namespace cairn {
 namespace {

@@ -152,8 +152,8 @@ TEST(Moments, WhatIsCalledBeforeThemIsKept) {
     }
 }
 
-/// A restored world finds everything anew; one that went on keeps the pairs and contacts of bodies that did not move.
-TEST(StillBodies, AreFoundAsIfAnewAfterEveryCall) {
+/// A restored world finds everything anew; one that went on keeps the contacts of pairs of which no pose changed.
+TEST(Pairs, AreFoundAsIfAnewAfterEveryCall) {
     std::vector<Call> calls = everyCall();
     calls.push_back({"contact_margin", [](Yard& y) {
                          Settings s = y.world.settings();

@@ -1,0 +1,115 @@
+#include "pairs/found_contacts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "math/arrays.h"
+
+namespace cairn {
+
+namespace {
+
+Contact contactOf(const BodyStorage& bodies, const MaterialTable& materials, const FoundContact& found) {
+    const PairProperties properties = materials.pair(bodies.material[found.a], bodies.material[found.b]);
+    return {.a = found.a,
+            .b = found.b,
+            .point = found.point,
+            .normal = found.normal,
+            .distance = found.distance,
+            .restitution = properties.restitution,
+            .static_friction = properties.static_friction,
+            .kinetic_friction = properties.kinetic_friction,
+            .rolling_friction = properties.rolling_friction,
+            .spinning_friction = properties.spinning_friction,
+            .last_impulse = found.last_impulse,
+            .reference_impulse = found.reference_impulse};
+}
+
+/// Calls use(piece, place of its first contact), in the order of the contacts.
+template <class Use>
+void forEachPiece(std::span<const FoundContacts> parts, const Use& use) {
+    std::size_t next = 0;
+    for (const FoundContacts& part : parts) {
+        for (const FoundContacts::Piece& piece : part.pieces) {
+            use(piece, next);
+            next += piece.count;
+        }
+    }
+}
+
+}  // namespace
+
+void requireContacts(std::size_t count) {
+    if (count <= most_contacts) return;
+    throw InputError(fmt::format(
+        "{} contacts in one time step; {} are the most: remove bodies, or part those that were put into each other",
+        count, most_contacts));
+}
+
+void FoundContacts::clear() {
+    found.clear();
+    pieces.clear();
+    count = pair_begin = pair_end = 0;
+}
+
+void FoundContacts::add(std::size_t from, std::size_t contacts, bool stays) {
+    if (contacts == 0) return;
+    count += contacts;
+    const auto size = static_cast<std::uint32_t>(contacts);
+    if (!pieces.empty() && pieces.back().stays == stays && pieces.back().from + pieces.back().count == from) {
+        pieces.back().count += size;
+    } else {
+        pieces.push_back({static_cast<std::uint32_t>(from), size, stays});
+    }
+}
+
+/// Brings the contacts that stay to their places: first all that move down, then, from the last on, those that move up.
+/// So none is written over before its turn.
+void ContactJoiner::moveStaying(std::span<const FoundContacts> parts, std::size_t total,
+                                std::vector<Contact>& contacts) {
+    resizeTightly(contacts, std::max(total, contacts.size()));
+    rising_.clear();
+    forEachPiece(parts, [&](const FoundContacts::Piece& piece, std::size_t to) {
+        if (!piece.stays || to == piece.from) return;
+        if (to > piece.from) {
+            rising_.emplace_back(piece, to);
+        } else {
+            const auto first = contacts.begin() + piece.from;
+            std::move(first, first + piece.count, contacts.begin() + static_cast<std::ptrdiff_t>(to));
+        }
+    });
+    for (std::size_t n = rising_.size(); n-- > 0;) {
+        const auto& [piece, to] = rising_[n];
+        const auto first = contacts.begin() + piece.from;
+        std::move_backward(first, first + piece.count,
+                           contacts.begin() + static_cast<std::ptrdiff_t>(to) + piece.count);
+    }
+    contacts.resize(total);
+}
+
+void ContactJoiner::join(const BodyStorage& bodies, const MaterialTable& materials, const Executor& executor,
+                         std::span<const FoundContacts> parts, std::vector<Contact>& contacts) {
+    std::size_t total = 0;
+    for (const FoundContacts& part : parts) total += part.count;
+    requireContacts(total);
+    moveStaying(parts, total, contacts);
+    const auto fill = [&](const FoundContacts& part, std::size_t place) {
+        for (const FoundContacts::Piece& piece : part.pieces) {
+            for (std::size_t i = 0; !piece.stays && i < piece.count; ++i) {
+                contacts[place + i] = contactOf(bodies, materials, part.found[piece.from + i]);
+            }
+            place += piece.count;
+        }
+    };
+    executor.forBlocks(
+        parts.size(),
+        [&](std::size_t begin, std::size_t end, int) {
+            std::size_t place = 0;
+            for (std::size_t t = 0; t < begin; ++t) place += parts[t].count;
+            for (std::size_t t = begin; t < end; place += parts[t++].count) fill(parts[t], place);
+        },
+        1);
+}
+
+}  // namespace cairn

@@ -1,0 +1,66 @@
+/// @file What the threads of a detection find, and how it becomes the contacts of the step.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "body/body_storage.h"
+#include "body/contact.h"
+#include "body/material_table.h"
+#include "parallel/executor.h"
+
+namespace cairn {
+
+/// Most contacts of a step: they are numbered with 32 bits, and so many fill 460 GB.
+inline constexpr std::size_t most_contacts = 2'000'000'000;
+
+/// @throws InputError if a step has more than most_contacts
+void requireContacts(std::size_t count);
+
+/// What the detection finds of a contact.
+struct FoundContact {
+    BodyIndex a;
+    BodyIndex b;
+    Vec3 point;                             ///< [m, W]
+    Vec3 normal;                            ///< from B to A
+    double distance;                        ///< [m]
+    Vec3 last_impulse = Vec3::Zero();       ///< Contact::last_impulse
+    Vec3 reference_impulse = Vec3::Zero();  ///< Contact::reference_impulse
+};
+
+/// What one thread found, in the order of the pairs.
+struct FoundContacts {
+    /// Contacts side by side: those that the step has of the last detection, or of found.
+    struct Piece {
+        std::uint32_t from;  ///< index of the first, there
+        std::uint32_t count;
+        bool stays;  ///< they are those of the last detection
+    };
+    std::vector<FoundContact> found;
+    std::vector<Piece> pieces;
+    std::size_t count = 0;                     ///< of all pieces
+    std::size_t pair_begin = 0, pair_end = 0;  ///< the pairs that the thread tests
+
+    void clear();
+    /// Appends contacts. @param from, contacts, stays as of Piece
+    void add(std::size_t from, std::size_t contacts, bool stays);
+};
+
+/// Makes the contacts of a step of what the threads found.
+class ContactJoiner {
+  public:
+    /// Those that stay keep their places as far as they can.
+    /// @param parts those of ascending blocks of the sorted pairs @param contacts replaced, sorted
+    /// @throws InputError beyond most_contacts
+    void join(const BodyStorage& bodies, const MaterialTable& materials, const Executor& executor,
+              std::span<const FoundContacts> parts, std::vector<Contact>& contacts);
+
+  private:
+    void moveStaying(std::span<const FoundContacts> parts, std::size_t total, std::vector<Contact>& contacts);
+
+    std::vector<std::pair<FoundContacts::Piece, std::size_t>> rising_;  ///< pieces that move up, and where to
+};
+
+}  // namespace cairn

@@ -1,0 +1,192 @@
+#include "pairs/pair_table.h"
+
+#include <algorithm>
+
+#include "math/arrays.h"
+#include "narrow_phase/narrow_phase.h"
+#include "pairs/same_point.h"
+#include "pairs/warm_start.h"
+
+namespace cairn {
+
+namespace {
+
+/// Fewest pairs worth a thread of their own: most are far from each other, or known.
+constexpr std::size_t pair_grain = 256;
+
+/// Whether another contact of the pair is at the same place; the deeper of the two stays.
+bool mergeInto(std::span<FoundContact> others, const Vec3& point, const Vec3& normal, double distance, double size) {
+    for (FoundContact& other : others) {
+        const double apart = (other.point - point).squaredNorm() + squaredTurn(other.normal, normal, size);
+        if (apart > same_at_once * same_at_once * size * size) continue;
+        if (distance < other.distance) {
+            other.point = point;
+            other.normal = normal;
+            other.distance = distance;
+        }
+        return true;
+    }
+    return false;
+}
+
+/// Appends the contacts of one pair.
+void collidePair(const BodyStorage& bodies, const BodyPair& pair, double margin, Manifold& manifold,
+                 std::vector<FoundContact>& contacts) {
+    const std::size_t first = contacts.size();
+    const double size = std::min(bodies.r_max[pair.a], bodies.r_max[pair.b]);
+    const auto add = [&](const Manifold& found) {
+        // Within one manifold points are apart already.
+        const std::size_t earlier = contacts.size() - first;
+        for (std::size_t k = 0; k < found.size; ++k) {
+            const auto& [point, distance] = found.points[k];
+            const auto others = std::span(contacts).subspan(first, earlier);
+            if (mergeInto(others, point, found.normal, distance, size)) continue;
+            appendTightly(contacts, {pair.a, pair.b, point, found.normal, distance});
+        }
+    };
+    forEachManifold(bodies.shape[pair.a], bodies.shapePose(pair.a), bodies.shape[pair.b], bodies.shapePose(pair.b),
+                    margin, manifold, add);
+}
+
+/// Whether one of two bodies can move and no joint keeps them from touching. @param excluded sorted
+bool mayTouch(const BodyStorage& bodies, std::span<const BodyPair> excluded, const BodyPair& pair) {
+    const auto [a, b] = std::pair(bodies.kind[pair.a], bodies.kind[pair.b]);
+    if (a == BodyKind::hole || b == BodyKind::hole || (a == BodyKind::fixed && b == BodyKind::fixed)) return false;
+    return excluded.empty() || !std::ranges::binary_search(excluded, pair);
+}
+
+}  // namespace
+
+void PairTable::beginStep(const BodyStorage& bodies, std::span<const std::uint32_t> generation,
+                          const Executor& executor) {
+    removed_.clear();
+    others_.assign(bodies.slots(), 0);
+    bool any = false;
+    for (BodyIndex i = 0; i < generation.size(); ++i) {
+        if (generation[i] == bodies.generation[i]) continue;
+        others_[i] = 1;
+        any = true;
+    }
+    if (any) near_pairs_.drop(others_, removed_);
+    const std::span<ContactPair> pairs = near_pairs_.pairs();
+    executor.forBlocks(pairs.size(), [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t i = begin; i < end; ++i) pairs[i].touched = pairs[i].touches();
+    });
+}
+
+void PairTable::detect(const PairsInput& input, std::vector<Contact>& contacts) {
+    BodyStorage& bodies = input.bodies;
+    findUnmoved(input);
+    findBounds(input);
+    near_pairs_.update({bodies.kind, bounds_, bodies.v, unmoved_}, input.broad_phase, input.executor);
+    parts_.resize(static_cast<std::size_t>(input.executor.threads()));
+    for (FoundContacts& part : parts_) part.clear();
+    input.executor.forBlocks(
+        pairs().size(),
+        [&](std::size_t begin, std::size_t end, int thread) {
+            FoundContacts& part = parts_[static_cast<std::size_t>(thread)];
+            part.pair_begin = begin;
+            part.pair_end = end;
+            detectPairs(input, contacts, part);
+        },
+        pair_grain);
+    addFirst(input.executor);
+    joiner_.join(bodies, input.materials, input.executor, parts_, contacts);
+    input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t i = begin; i < end; ++i) {
+            bodies.detected_position[i] = bodies.position[i];
+            bodies.detected_orientation[i] = bodies.orientation[i];
+        }
+    });
+    known_ = true;
+}
+
+void PairTable::adopt(std::span<const Contact> contacts) {
+    near_pairs_.begin(contacts);
+    known_ = false;
+    bounds_.clear();
+}
+
+/// Compares every body with where it was detected last.
+void PairTable::findUnmoved(const PairsInput& input) {
+    const BodyStorage& bodies = input.bodies;
+    const bool known = known_ && input.margin == margin_;
+    margin_ = input.margin;
+    unmoved_.resize(bodies.slots());
+    input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const bool same = bodies.detected_position[i] == bodies.position[i] &&
+                              bodies.detected_orientation[i].coeffs() == bodies.orientation[i].coeffs();
+            unmoved_[i] = known && same ? 1 : 0;
+        }
+    });
+}
+
+void PairTable::findBounds(const PairsInput& input) {
+    const BodyStorage& bodies = input.bodies;
+    bounds_.resize(bodies.slots());
+    input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
+        for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
+            if (bodies.kind[i] == BodyKind::hole || unmoved_[i] != 0) continue;
+            Bounds grown = boundsOf(bodies.shape[i], bodies.shapePose(i));
+            grown.lower.array() -= margin_;
+            grown.upper.array() += margin_;
+            bounds_[i] = grown;
+        }
+    });
+}
+
+/// @param part in: its pairs; out: what was found of them
+void PairTable::detectPairs(const PairsInput& input, std::span<const Contact> last, FoundContacts& part) {
+    Manifold manifold;
+    for (ContactPair& pair : near_pairs_.pairs().subspan(part.pair_begin, part.pair_end - part.pair_begin)) {
+        if (!mayTouch(input.bodies, input.excluded, pair)) {
+            pair.count = ContactPair::untested;
+            continue;
+        }
+        const std::size_t first = part.count;
+        const bool known = (unmoved_[pair.a] & unmoved_[pair.b]) != 0 && pair.isTested();
+        if (known) {
+            if (pair.count > 0) part.add(pair.first, pair.count, true);
+        } else {
+            const auto before = pair.touches() ? last.subspan(pair.first, pair.count) : std::span<const Contact>();
+            const std::size_t begin = part.found.size();
+            if (bounds_[pair.a].overlaps(bounds_[pair.b])) {
+                collidePair(input.bodies, pair, margin_, manifold, part.found);
+                inheritImpulses(input.bodies, before, std::span(part.found).subspan(begin));
+            }
+            pair.count = static_cast<std::uint32_t>(part.found.size() - begin);
+            part.add(begin, pair.count, false);
+        }
+        pair.first = static_cast<std::uint32_t>(first);
+    }
+}
+
+/// Makes the pairs' first contacts, which count from those of their thread on, indices of all contacts.
+void PairTable::addFirst(const Executor& executor) {
+    executor.forBlocks(
+        parts_.size(),
+        [&](std::size_t begin, std::size_t end, int) {
+            std::size_t first = 0;
+            for (std::size_t t = 0; t < begin; ++t) first += parts_[t].count;
+            for (std::size_t t = begin; t < end; first += parts_[t++].count) {
+                if (first == 0) continue;
+                const FoundContacts& part = parts_[t];
+                for (ContactPair& pair :
+                     near_pairs_.pairs().subspan(part.pair_begin, part.pair_end - part.pair_begin)) {
+                    pair.first += static_cast<std::uint32_t>(first);
+                }
+            }
+        },
+        1);
+}
+
+bool isAnyDisplaced(const BodyStorage& bodies, double way) {
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        if (bodies.kind[i] != BodyKind::dynamic) continue;
+        if ((bodies.position[i] - bodies.detected_position[i]).squaredNorm() > way * way) return true;
+    }
+    return false;
+}
+
+}  // namespace cairn

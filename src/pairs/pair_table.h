@@ -1,0 +1,74 @@
+/// @file Stage 3: the pairs of bodies near each other, and the contacts of those that touch.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "body/body_storage.h"
+#include "body/contact.h"
+#include "body/material_table.h"
+#include "broad_phase/near_pairs.h"
+#include "pairs/found_contacts.h"
+#include "parallel/executor.h"
+
+namespace cairn {
+
+/// What the contacts of pairs depend on.
+struct PairsInput {
+    BodyStorage& bodies;  ///< detect() notes where it found them
+    const MaterialTable& materials;
+    BroadPhase& broad_phase;
+    std::span<const BodyPair> excluded;  ///< pairs that joints keep from touching, sorted
+    double margin;                       ///< contacts are found up to this distance [m]
+    const Executor& executor;
+};
+
+/// The pairs of bodies near each other, in the order of their slots. A pair lives as long as the bounds that its bodies
+/// were searched with overlap; its contacts are found anew where a body is not where it was detected last
+/// (BodyArrays::detected_position). What is found depends on poses and shapes alone. The impulses that new contacts
+/// begin with are matched afterwards.
+class PairTable {
+  public:
+    /// Notes which pairs touch, and drops those of bodies that are no longer there.
+    /// @param generation [slots] of the bodies that the contacts of the last step are of
+    void beginStep(const BodyStorage& bodies, std::span<const std::uint32_t> generation, const Executor& executor);
+    /// Finds the contacts of all pairs where the bodies are now, as often in a step as bodies were displaced.
+    /// @param contacts in: those of the last call, with the impulses that the next ones inherit in last_impulse and
+    ///        reference_impulse; out: sorted by (a, b) @throws InputError beyond most_contacts
+    void detect(const PairsInput& input, std::vector<Contact>& contacts);
+
+    /// To be called when contacts would be others though no body moved: all are found anew.
+    void forgetContacts() { known_ = false; }
+    /// To be called when bodies and contacts are others: all pairs are those of the contacts.
+    /// @param contacts sorted by (a, b)
+    void adopt(std::span<const Contact> contacts);
+
+    /// All of them, sorted by (a, b), whether they touch or not.
+    std::span<const ContactPair> pairs() const { return near_pairs_.pairs(); }
+    /// Pairs that touched in the last step, of bodies that were removed since; sorted by (a, b).
+    std::span<const BodyPair> removed() const { return removed_; }
+    /// [slots] grown by the margin [m, W]; empty before the first detection.
+    std::span<const Bounds> bounds() const { return bounds_; }
+
+  private:
+    void findUnmoved(const PairsInput& input);
+    void findBounds(const PairsInput& input);
+    void detectPairs(const PairsInput& input, std::span<const Contact> last, FoundContacts& part);
+    void addFirst(const Executor& executor);
+
+    NearPairs near_pairs_;
+    std::vector<BodyPair> removed_;
+    std::vector<std::uint8_t> others_;   ///< [slots] 1 = its body was removed since the last step
+    bool known_ = false;                 ///< the contacts are those of the last detection
+    double margin_ = 0;                  ///< of the last detection [m]
+    std::vector<std::uint8_t> unmoved_;  ///< [slots] 1 = contacts with others of these are known
+    std::vector<Bounds> bounds_;         ///< [slots]
+    std::vector<FoundContacts> parts_;   ///< [threads]
+    ContactJoiner joiner_;
+};
+
+/// Whether a body that can move is farther than a way [m] from where it was detected last.
+bool isAnyDisplaced(const BodyStorage& bodies, double way);
+
+}  // namespace cairn

@@ -1,0 +1,72 @@
+#include "pairs/warm_start.h"
+
+#include <algorithm>
+
+#include "pairs/same_point.h"
+
+namespace cairn {
+
+namespace {
+
+/// How a body moved since its contacts were found.
+class Motion {
+  public:
+    Motion(const BodyStorage& bodies, BodyIndex i)
+        : from_(bodies.detected_position[i]),
+          to_(bodies.position[i]),
+          turn_((bodies.orientation[i] * bodies.detected_orientation[i].conjugate()).toRotationMatrix()) {}
+    Vec3 movedPoint(const Vec3& point) const { return to_ + turn_ * (point - from_); }
+    Vec3 turned(const Vec3& direction) const { return turn_ * direction; }
+
+  private:
+    Vec3 from_, to_;
+    Mat3 turn_;
+};
+
+}  // namespace
+
+void beginContacts(std::span<Contact> contacts, WarmStart warm_start, const Executor& executor) {
+    executor.forBlocks(contacts.size(), [&](std::size_t begin, std::size_t end, int) {
+        for (Contact& c : contacts.subspan(begin, end - begin)) {
+            // Adding zero turns −0 into +0, as what is inherited is added to zero.
+            c.last_impulse = c.impulse + Vec3::Zero();
+            if (warm_start == WarmStart::off) {
+                c.last_impulse.setZero();
+                c.reference_impulse.setZero();
+            }
+            c.impulse.setZero();
+            c.angular_impulse.setZero();
+            c.gap = c.forced = c.fall = c.climb = 0;
+        }
+    });
+}
+
+void inheritImpulses(const BodyStorage& bodies, std::span<const Contact> before, std::span<FoundContact> now) {
+    if (before.empty() || now.empty()) return;
+    const auto [a, b] = std::pair(before.front().a, before.front().b);
+    const Motion with_a(bodies, a);
+    const Motion with_b(bodies, b);
+    const double size = std::min(bodies.r_max[a], bodies.r_max[b]);
+    // Every impulse goes to one contact as a whole: where points of a manifold merge or split, the pair still gets the
+    // same push in total.
+    for (const Contact& old : before) {
+        const Vec3 on_a = with_a.movedPoint(old.point);
+        const Vec3 on_b = with_b.movedPoint(old.point);
+        const Vec3 normal = with_a.turned(old.normal);
+        double nearest = same_after_a_step * same_after_a_step * size * size;
+        FoundContact* heir = nullptr;
+        for (FoundContact& contact : now) {
+            const double apart = std::min((contact.point - on_a).squaredNorm(), (contact.point - on_b).squaredNorm());
+            if (!(apart < nearest)) continue;
+            const double distance = apart + squaredTurn(contact.normal, normal, size);
+            if (!(distance < nearest)) continue;
+            nearest = distance;
+            heir = &contact;
+        }
+        if (heir == nullptr) continue;
+        heir->last_impulse += old.last_impulse;
+        heir->reference_impulse += old.reference_impulse;
+    }
+}
+
+}  // namespace cairn

@@ -1,0 +1,194 @@
+#include "pairs/pair_table.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+namespace cairn {
+namespace {
+
+/// Balls of radius 1 in a row, which overlap their neighbours by 0.1.
+struct Row {
+    BodyStorage bodies;
+    MaterialTable materials;
+    std::unique_ptr<BroadPhase> broad_phase = makeBroadPhase(BroadPhaseKind::hash_grids);
+    std::vector<BodyPair> excluded;
+    double margin = 0;
+    Executor executor;
+    PairTable pairs;
+    std::vector<Contact> contacts;
+
+    explicit Row(int count, int threads = 1) : executor(threads) {
+        materials.add({.name = "matter", .density = 1});
+        for (int i = 0; i < count; ++i) add();
+    }
+
+    /// Puts a ball into the lowest free slot and to the place in the row that is the slot's.
+    BodyIndex add() {
+        const BodyIndex b = bodies.allocate(BodyKind::dynamic);
+        bodies.shape[b] = Sphere{1};
+        bodies.r_max[b] = 1;
+        bodies.position[b] = Vec3(1.9 * b, 0, 0);
+        return b;
+    }
+
+    PairsInput input() { return {bodies, materials, *broad_phase, excluded, margin, executor}; }
+    void detect() { pairs.detect(input(), contacts); }
+    void beginStep(std::span<const std::uint32_t> generation) { pairs.beginStep(bodies, generation, executor); }
+    void moveTo(BodyIndex i, const Vec3& position) { bodies.position[i] = position; }
+    /// What the contacts that stay are known by, and those that are found anew inherit.
+    void mark() {
+        for (Contact& contact : contacts) {
+            contact.angular_impulse = Vec3::Ones();
+            contact.last_impulse = Vec3(contact.a + 1, 0, 0);
+        }
+    }
+    bool isMarked(std::size_t contact) const { return contacts[contact].angular_impulse == Vec3::Ones(); }
+};
+
+TEST(PairTable, ContactsAreFoundAnewWhereABodyMoved) {
+    Row row(4);
+    row.detect();
+    ASSERT_EQ(row.contacts.size(), 3);
+    row.mark();
+    row.detect();
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(row.isMarked(i)) << "nobody moved";
+    row.moveTo(0, Vec3(0.05, 0, 0));
+    row.detect();
+    ASSERT_EQ(row.contacts.size(), 3);
+    EXPECT_FALSE(row.isMarked(0));
+    EXPECT_NEAR(row.contacts[0].distance, -0.15, 1e-12);
+    EXPECT_EQ(row.contacts[0].last_impulse.x(), 1) << "inherited";
+    EXPECT_TRUE(row.isMarked(1));
+    EXPECT_TRUE(row.isMarked(2));
+}
+
+TEST(PairTable, PairsKnowTheirContacts) {
+    for (const int threads : {1, 3}) {
+        Row row(2000, threads);
+        for (int n = 0; n < 3; ++n) {
+            row.detect();
+            std::size_t touching = 0;
+            for (const ContactPair& pair : row.pairs.pairs()) {
+                if (!pair.touches()) continue;
+                ASSERT_EQ(pair.first, touching++);
+                ASSERT_EQ(row.contacts[pair.first].a, pair.a);
+                ASSERT_EQ(row.contacts[pair.first].b, pair.b);
+            }
+            ASSERT_EQ(touching, row.contacts.size());
+            row.moveTo(900 + 10 * static_cast<BodyIndex>(n), Vec3(0, 100, 0));
+        }
+    }
+}
+
+TEST(PairTable, AnotherMarginAndForgottenContactsFindAllAnew) {
+    Row row(3);
+    row.detect();
+    row.mark();
+    row.margin = 0.01;
+    row.detect();
+    EXPECT_FALSE(row.isMarked(0));
+    row.mark();
+    row.pairs.forgetContacts();
+    row.detect();
+    EXPECT_FALSE(row.isMarked(0));
+    EXPECT_FALSE(row.isMarked(1));
+}
+
+TEST(PairTable, PairsThatJointsKeepApartDoNotTouchUntilTheJointsAreGone) {
+    Row row(3);
+    row.detect();
+    row.excluded = {{0, 1}};
+    row.detect();
+    ASSERT_EQ(row.contacts.size(), 1);
+    EXPECT_EQ(row.contacts[0].a, 1);
+    row.excluded.clear();
+    row.detect();
+    EXPECT_EQ(row.contacts.size(), 2);
+}
+
+TEST(PairTable, WhoIsDisplacedMeetsOthersInTheSameStep) {
+    Row row(4);
+    row.moveTo(3, Vec3(0, 0, 9));
+    row.detect();
+    row.mark();
+    row.moveTo(3, Vec3(1.9 * 2, 1.9, 0));
+    EXPECT_TRUE(isAnyDisplaced(row.bodies, 1));
+    EXPECT_FALSE(isAnyDisplaced(row.bodies, 10));
+    row.detect();
+    EXPECT_FALSE(isAnyDisplaced(row.bodies, 0));
+    ASSERT_EQ(row.contacts.size(), 3);
+    EXPECT_EQ(row.contacts[2].b, 3);
+    EXPECT_TRUE(row.isMarked(0));
+    EXPECT_TRUE(row.isMarked(1));
+}
+
+TEST(PairTable, PairsKnowWhetherTheyTouchedUntilTheStepIsOver) {
+    Row row(3);
+    row.beginStep({});
+    row.detect();
+    ASSERT_EQ(row.pairs.pairs().size(), 2);
+    EXPECT_FALSE(row.pairs.pairs()[0].touched) << "it begins";
+    EXPECT_TRUE(row.pairs.pairs()[0].touches());
+    const std::vector<std::uint32_t> generation(3, 0);
+    row.beginStep(generation);
+    row.moveTo(0, Vec3(0, 0, 50));
+    for (int round = 0; round < 2; ++round) {
+        row.detect();
+        ASSERT_EQ(row.pairs.pairs().size(), 2);
+        EXPECT_TRUE(row.pairs.pairs()[0].touched);
+        EXPECT_FALSE(row.pairs.pairs()[0].touches()) << "it ends";
+        row.moveTo(0, Vec3(0, 0, 100));
+    }
+    row.beginStep(generation);
+    row.moveTo(0, Vec3(0, 0, 200));
+    row.detect();
+    EXPECT_EQ(row.pairs.pairs().size(), 1);
+}
+
+TEST(PairTable, PairsOfABodyThatIsGoneAreToldAndAnotherInItsSlotInheritsNothing) {
+    Row row(3);
+    row.detect();
+    row.mark();
+    const std::vector<std::uint32_t> generation(3, 0);
+    row.bodies.release(1);
+    ASSERT_EQ(row.add(), 1);
+    row.beginStep(generation);
+    ASSERT_EQ(row.pairs.removed().size(), 2);
+    EXPECT_EQ(row.pairs.removed()[0], (BodyPair{0, 1}));
+    EXPECT_EQ(row.pairs.removed()[1], (BodyPair{1, 2}));
+    row.detect();
+    ASSERT_EQ(row.contacts.size(), 2);
+    for (const Contact& contact : row.contacts) EXPECT_EQ(contact.last_impulse, Vec3::Zero());
+    for (const ContactPair& pair : row.pairs.pairs()) EXPECT_FALSE(pair.touched);
+    row.bodies.release(1);
+    row.beginStep(std::vector<std::uint32_t>(3, 1));
+    row.detect();
+    EXPECT_TRUE(row.contacts.empty());
+}
+
+TEST(PairTable, BodiesThatAreFixedBothDoNotTouch) {
+    Row row(3);
+    row.detect();
+    row.bodies.kind[0] = row.bodies.kind[1] = BodyKind::fixed;
+    row.detect();
+    ASSERT_EQ(row.contacts.size(), 1);
+    EXPECT_EQ(row.contacts[0].a, 1);
+}
+
+TEST(PairTable, AdoptedContactsLeaveTheirImpulses) {
+    Row row(4);
+    row.detect();
+    row.mark();
+    Row other(0);
+    other.bodies = row.bodies;
+    other.contacts = row.contacts;
+    other.pairs.adopt(other.contacts);
+    other.detect();
+    ASSERT_EQ(other.contacts.size(), 3);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(other.contacts[i].last_impulse, row.contacts[i].last_impulse);
+}
+
+}  // namespace
+}  // namespace cairn

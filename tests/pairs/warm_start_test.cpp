@@ -1,0 +1,97 @@
+#include "pairs/warm_start.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace cairn {
+namespace {
+
+/// Two bodies of radius 1 at (0, 0, 0) and (2, 0, 0), where they were detected.
+BodyStorage twoBodies() {
+    BodyStorage bodies;
+    for (int i = 0; i < 2; ++i) {
+        const BodyIndex b = bodies.allocate(BodyKind::dynamic);
+        bodies.r_max[b] = 1;
+        bodies.position[b] = bodies.detected_position[b] = Vec3(2.0 * i, 0, 0);
+    }
+    return bodies;
+}
+
+Contact contactAt(const Vec3& point, const Vec3& impulse) {
+    return {.a = 0, .b = 1, .point = point, .last_impulse = impulse, .reference_impulse = 2 * impulse};
+}
+
+FoundContact foundAt(const Vec3& point) {
+    return {.a = 0, .b = 1, .point = point, .normal = Vec3::UnitX(), .distance = 0};
+}
+
+TEST(WarmStart, WhatStaysBeginsWithTheImpulsesOfTheLastStep) {
+    for (const WarmStart warm_start : {WarmStart::off, WarmStart::on}) {
+        std::vector<Contact> contacts = {
+            {.a = 0, .b = 1, .reference_impulse = Vec3(5, 0, 0), .impulse = Vec3(3, 0, -0.0), .gap = 1}};
+        beginContacts(contacts, warm_start, Executor());
+        const bool on = warm_start == WarmStart::on;
+        EXPECT_EQ(contacts[0].last_impulse, on ? Vec3(3, 0, 0) : Vec3(0, 0, 0));
+        EXPECT_FALSE(std::signbit(contacts[0].last_impulse.z())) << "as what is inherited";
+        EXPECT_EQ(contacts[0].reference_impulse, on ? Vec3(5, 0, 0) : Vec3(0, 0, 0));
+        EXPECT_EQ(contacts[0].impulse, Vec3(0, 0, 0));
+        EXPECT_EQ(contacts[0].gap, 0);
+    }
+}
+
+TEST(WarmStart, ANewContactHasNoImpulse) {
+    std::vector<FoundContact> now = {foundAt(Vec3(1, 0, 0))};
+    inheritImpulses(twoBodies(), {}, now);
+    EXPECT_EQ(now[0].last_impulse, Vec3::Zero());
+    EXPECT_EQ(now[0].reference_impulse, Vec3::Zero());
+}
+
+TEST(WarmStart, ContactsAreRecognisedByTheirPlaceAlsoOnTurnedAndMovedBodies) {
+    BodyStorage bodies = twoBodies();
+    const std::vector before = {contactAt(Vec3(1, 0.3, 0), Vec3(1, 0, 0)), contactAt(Vec3(1, -0.3, 0), Vec3(2, 0, 0))};
+    const Quat half_turn(Eigen::AngleAxisd(3.14159265358979, Vec3::UnitX()));
+    for (BodyIndex b = 0; b < 2; ++b) {
+        bodies.orientation[b] = half_turn;
+        bodies.position[b] += Vec3(0, 0, 5);
+    }
+    std::vector<FoundContact> now = {foundAt(Vec3(1, 0.3, 5)), foundAt(Vec3(1, -0.3, 5))};
+    inheritImpulses(bodies, before, now);
+    EXPECT_EQ(now[0].last_impulse.x(), 2);
+    EXPECT_EQ(now[1].last_impulse.x(), 1);
+    EXPECT_EQ(now[1].reference_impulse.x(), 2);
+}
+
+TEST(WarmStart, AnImpulseIsNeverGivenTwiceAndMergedPointsKeepTheSum) {
+    const BodyStorage bodies = twoBodies();
+    std::vector<FoundContact> split = {foundAt(Vec3(1, 0.01, 0)), foundAt(Vec3(1, -0.02, 0))};
+    inheritImpulses(bodies, std::vector{contactAt(Vec3(1, 0, 0), Vec3(1, 0, 0))}, split);
+    EXPECT_EQ(split[0].last_impulse.x() + split[1].last_impulse.x(), 1);
+    std::vector<FoundContact> merged = {foundAt(Vec3(1, 0, 0))};
+    inheritImpulses(
+        bodies, std::vector{contactAt(Vec3(1, 0.01, 0), Vec3(4, 0, 0)), contactAt(Vec3(1, -0.02, 0), Vec3(5, 0, 0))},
+        merged);
+    EXPECT_EQ(merged[0].last_impulse.x(), 9);
+}
+
+TEST(WarmStart, PointsAtOnePlaceAreToldApartByTheirDirections) {
+    const BodyStorage bodies = twoBodies();
+    std::vector before = {contactAt(Vec3(1, 0, 0), Vec3(1, 0, 0)), contactAt(Vec3(1, 0, 0), Vec3(2, 0, 0))};
+    before[1].normal = Vec3::UnitY();
+    std::vector<FoundContact> now = {foundAt(Vec3(1, 0, 0)), foundAt(Vec3(1, 0, 0))};
+    now[0].normal = Vec3::UnitY();
+    inheritImpulses(bodies, before, now);
+    EXPECT_EQ(now[0].last_impulse.x(), 2);
+    EXPECT_EQ(now[1].last_impulse.x(), 1);
+}
+
+TEST(WarmStart, FarPointsGiveNothing) {
+    const BodyStorage bodies = twoBodies();
+    std::vector<FoundContact> far = {foundAt(Vec3(1, 0.5, 0))};
+    inheritImpulses(bodies, std::vector{contactAt(Vec3(1, 0, 0), Vec3(1, 0, 0))}, far);
+    EXPECT_EQ(far[0].last_impulse, Vec3::Zero());
+}
+
+}  // namespace
+}  // namespace cairn
