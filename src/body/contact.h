@@ -20,7 +20,7 @@ struct Contact {
     double rolling_friction = 0;       ///< [m]
     double spinning_friction = 0;      ///< [m]
     Vec3 last_impulse = Vec3::Zero();  ///< that A received here in the last step [N·s, W]; zero for a new contact
-    /// What A received here when both bodies were awake last [N·s, W]; zero if that never was.
+    /// What A received here when both bodies were resolved last [N·s, W]; zero if that never was.
     Vec3 reference_impulse = Vec3::Zero();
     Vec3 impulse = Vec3::Zero();          ///< sum of what A received in this step [N·s, W]; B received the opposite
     Vec3 angular_impulse = Vec3::Zero();  ///< of rolling and spinning friction, likewise [N·m·s, W]

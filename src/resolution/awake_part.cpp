@@ -16,19 +16,29 @@ struct Disturbance {
     Vec3 linear = Vec3::Zero();   ///< [N·s]
     Vec3 angular = Vec3::Zero();  ///< about the centre of mass [N·m·s]
     double squared_reach = 0;     ///< of the farthest contact from the centre of mass [m²]
-
-    static constexpr std::uint32_t none = UINT32_MAX;
 };
 
 /// What a batch that is resolved in part does with a body.
 enum class Part : std::uint8_t {
     free,  ///< resolves it
     held,  ///< holds it still
-    freed  ///< held it, until it was disturbed
+    along  ///< resolves it along with others, but leaves it as it was unless that pushes it
+};
+
+/// A body that is resolved along, and what it was.
+struct Along {
+    BodyIndex body;
+    std::uint8_t asleep;
+    std::uint8_t resting;
+    WakeReason woken;
+    double squared_reach = 0;  ///< of the farthest contact from the centre of mass [m²]
 };
 
 /// Resting bodies are disturbed by what would give them this multiple of rest_speed.
 constexpr double rest_multiple = 25;
+
+/// Stands for no index.
+constexpr std::uint32_t none = UINT32_MAX;
 
 class AwakePart final : public Resolution {
   public:
@@ -94,15 +104,15 @@ class AwakePart final : public Resolution {
                                  const ResolutionSettings& settings, const Executor& executor) {
         if (part_.size() < bodies.size()) {
             part_.resize(bodies.size(), Part::free);
-            disturbance_of_.resize(bodies.size(), Disturbance::none);
+            index_of_.resize(bodies.size(), none);
         }
         for (const BodyIndex i : batch.bodies) {
             if (bodies.resting[i] == 0 && !(sleeps(bodies, i) && settings.wake_speed > 0)) continue;
             part_[i] = Part::held;
             hold(bodies, i);
         }
-        freeTied(batch, bodies);
-        freeAllUnlessWorthwhile(batch, bodies);
+        takeTiedAlong(batch, bodies);
+        takeAllAlongUnlessWorthwhile(batch, bodies);
         ResolutionCounts counts;
         for (int reach = 1;; reach *= 4) {
             select(batch, contacts, bodies);
@@ -112,11 +122,12 @@ class AwakePart final : public Resolution {
             findDisturbed(contacts, bodies, settings);
             if (disturbed_.empty()) break;
             goBack(contacts, bodies);
-            wakeAround(batch, contacts, bodies, reach);
-            freeTied(batch, bodies);
-            freeAllUnlessWorthwhile(batch, bodies);
+            takeAroundAlong(batch, contacts, bodies, reach);
+            takeTiedAlong(batch, bodies);
+            takeAllAlongUnlessWorthwhile(batch, bodies);
         }
         for (std::size_t n = 0; n < part_joints_.size(); ++n) batch.joints[joint_of_part_[n]] = part_joints_[n];
+        wakePushed(batch, contacts, bodies, settings);
         forEachContact(batch, contacts, executor, [&](Contact& contact) {
             const bool a = isFree(bodies, contact.a);
             const bool b = isFree(bodies, contact.b);
@@ -128,11 +139,11 @@ class AwakePart final : public Resolution {
     }
 
     /// Unless most of a batch is held, resolving a part saves less than it may waste.
-    void freeAllUnlessWorthwhile(const BatchView& batch, const BodyState& bodies) {
+    void takeAllAlongUnlessWorthwhile(const BatchView& batch, const BodyState& bodies) {
         const auto held = std::ranges::count_if(batch.bodies, [&](BodyIndex i) { return isHeld(i); });
         if (4 * static_cast<std::size_t>(held) > 3 * batch.bodies.size()) return;
         for (const BodyIndex i : batch.bodies) {
-            if (isHeld(i)) free(bodies, i);
+            if (isHeld(i)) takeAlong(bodies, i);
         }
     }
 
@@ -140,15 +151,23 @@ class AwakePart final : public Resolution {
     bool isFree(const BodyState& bodies, BodyIndex i) const { return !isHeld(i) && !bodies.isFixed(i); }
 
     /// Bodies that joints tie together are held together or not at all.
-    void freeTied(const BatchView& batch, const BodyState& bodies) {
-        const auto isPartOf = [&](BodyIndex i) { return i != Joint::world && isFree(bodies, i); };
-        const auto isHeldPart = [&](BodyIndex i) { return i != Joint::world && isHeld(i); };
+    void takeTiedAlong(const BatchView& batch, const BodyState& bodies) {
+        spreadOverJoints(
+            batch, [&](BodyIndex i) { return isFree(bodies, i); }, [&](BodyIndex i) { return isHeld(i); },
+            [&](BodyIndex i) { takeAlong(bodies, i); });
+    }
+
+    /// Calls take(body) for those of some bodies that joints tie to certain others, until there is none left.
+    template <class IsOther, class IsSome, class Take>
+    static void spreadOverJoints(const BatchView& batch, const IsOther& is_other, const IsSome& is_some,
+                                 const Take& take) {
         for (bool changed = true; changed;) {
             changed = false;
             for (const JointBlock& joint : batch.joints) {
+                if (joint.a == Joint::world || joint.b == Joint::world) continue;
                 for (const auto& [end, other] : {std::pair(joint.a, joint.b), std::pair(joint.b, joint.a)}) {
-                    if (!isPartOf(end) || !isHeldPart(other)) continue;
-                    free(bodies, other);
+                    if (!is_other(end) || !is_some(other)) continue;
+                    take(other);
                     changed = true;
                 }
             }
@@ -189,20 +208,25 @@ class AwakePart final : public Resolution {
             const BodyIndex i = d.body;
             const Vec3 v = bodies.mass_inv[i] * d.linear;
             const Vec3 w = bodies.inertiaInv_W[i] * d.angular;
-            // As the motion that falling asleep is about; what is not a number disturbs, too.
-            const double motion = 2 * (v.squaredNorm() + w.squaredNorm() * d.squared_reach);
-            const double limit = bodies.resting[i] != 0 ? rest_multiple * settings.rest_speed : settings.wake_speed;
-            if (!(motion <= limit * limit)) disturbed_.push_back(i);
-            disturbance_of_[i] = Disturbance::none;
+            if (isPush(v, w, d.squared_reach, bodies.resting[i], settings)) disturbed_.push_back(i);
+            index_of_[i] = none;
         }
     }
 
+    /// Whether what a body would move by is beyond its limit, as the motion that falling asleep is about. What is not a
+    /// number is, too.
+    static bool isPush(const Vec3& v, const Vec3& w, double squared_reach, std::uint8_t resting,
+                       const ResolutionSettings& settings) {
+        const double limit = resting != 0 ? rest_multiple * settings.rest_speed : settings.wake_speed;
+        return !(2 * (v.squaredNorm() + w.squaredNorm() * squared_reach) <= limit * limit);
+    }
+
     void disturb(BodyIndex i, const Vec3& impulse, const Vec3& r) {
-        if (disturbance_of_[i] == Disturbance::none) {
-            disturbance_of_[i] = static_cast<std::uint32_t>(disturbances_.size());
+        if (index_of_[i] == none) {
+            index_of_[i] = static_cast<std::uint32_t>(disturbances_.size());
             disturbances_.push_back({.body = i});
         }
-        Disturbance& d = disturbances_[disturbance_of_[i]];
+        Disturbance& d = disturbances_[index_of_[i]];
         d.linear += impulse;
         d.angular += r.cross(impulse);
         d.squared_reach = std::max(d.squared_reach, r.squaredNorm());
@@ -220,36 +244,72 @@ class AwakePart final : public Resolution {
         }
     }
 
-    /// Wakes the disturbed bodies and all that so many contacts lead to from there.
-    void wakeAround(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies, int reach) {
-        for (const BodyIndex i : disturbed_) free(bodies, i);
+    /// Takes the disturbed bodies along and all that so many contacts lead to from there.
+    void takeAroundAlong(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies,
+                         int reach) {
+        for (const BodyIndex i : disturbed_) takeAlong(bodies, i);
         for (int step = 0; step < reach; ++step) {
             disturbed_.clear();
             for (const std::uint32_t i : batch.contacts) {
                 const auto [a, b] = std::pair(contacts[i].a, contacts[i].b);
-                if (isHeld(a) && part_[b] == Part::freed) disturbed_.push_back(a);
-                if (isHeld(b) && part_[a] == Part::freed) disturbed_.push_back(b);
+                if (isHeld(a) && part_[b] == Part::along) disturbed_.push_back(a);
+                if (isHeld(b) && part_[a] == Part::along) disturbed_.push_back(b);
             }
-            for (const BodyIndex i : disturbed_) free(bodies, i);
+            for (const BodyIndex i : disturbed_) takeAlong(bodies, i);
         }
     }
 
-    void free(const BodyState& bodies, BodyIndex i) {
-        part_[i] = Part::freed;
-        bodies.wake(i, WakeReason::struck);
+    void takeAlong(const BodyState& bodies, BodyIndex i) {
+        if (!isHeld(i)) return;
+        along_.push_back({i, bodies.asleep[i], bodies.resting[i], bodies.woken[i]});
+        part_[i] = Part::along;
         bodies.v[i] = bodies.fall;
+    }
+
+    /// Wakes who was resolved along and pushed, with those tied to it, and leaves the others as they were.
+    void wakePushed(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies,
+                    const ResolutionSettings& settings) {
+        if (along_.empty()) return;
+        for (std::uint32_t n = 0; n < along_.size(); ++n) index_of_[along_[n].body] = n;
+        for (const std::uint32_t c : part_contacts_) {
+            for (const BodyIndex i : {contacts[c].a, contacts[c].b}) {
+                if (part_[i] != Part::along) continue;
+                double& squared_reach = along_[index_of_[i]].squared_reach;
+                squared_reach = std::max(squared_reach, (contacts[c].point - bodies.position[i]).squaredNorm());
+            }
+        }
+        const auto wake = [&](BodyIndex i) {
+            part_[i] = Part::free;
+            bodies.wake(i, WakeReason::struck);
+        };
+        for (const Along& before : along_) {
+            const BodyIndex i = before.body;
+            index_of_[i] = none;
+            bodies.asleep[i] = before.asleep;
+            bodies.resting[i] = before.resting;
+            bodies.woken[i] = before.woken;
+            if (isPush(bodies.v[i], bodies.w[i], before.squared_reach, before.resting, settings)) wake(i);
+        }
+        spreadOverJoints(
+            batch, [&](BodyIndex i) { return part_[i] == Part::free && !bodies.isFixed(i); },
+            [&](BodyIndex i) { return part_[i] == Part::along; }, wake);
+        for (const Along& before : along_) {
+            if (part_[before.body] == Part::along) hold(bodies, before.body);
+        }
+        along_.clear();
     }
 
     std::unique_ptr<Resolution> resolution_;
     Sleepers sleepers_;
-    std::vector<Part> part_;                     ///< [slots] free outside of resolve()
-    std::vector<Disturbance> disturbances_;      ///< of held bodies with a contact of the part
-    std::vector<std::uint32_t> disturbance_of_;  ///< [slots] index in disturbances_; none outside of findDisturbed()
-    std::vector<BodyIndex> part_bodies_;         ///< ascending
-    std::vector<std::uint32_t> part_contacts_;   ///< ascending
-    std::vector<JointBlock> part_joints_;        ///< copies, so that what is undone leaves nothing behind
-    std::vector<std::uint32_t> joint_of_part_;   ///< [part_joints_] index in the batch
-    std::vector<BodyMotion> before_;             ///< [part_bodies_]
+    std::vector<Part> part_;                    ///< [slots] free outside of resolve()
+    std::vector<Disturbance> disturbances_;     ///< of held bodies with a contact of the part
+    std::vector<Along> along_;                  ///< empty outside of resolvePart()
+    std::vector<std::uint32_t> index_of_;       ///< [slots] in disturbances_ or along_; none outside of who uses it
+    std::vector<BodyIndex> part_bodies_;        ///< ascending
+    std::vector<std::uint32_t> part_contacts_;  ///< ascending
+    std::vector<JointBlock> part_joints_;       ///< copies, so that what is undone leaves nothing behind
+    std::vector<std::uint32_t> joint_of_part_;  ///< [part_joints_] index in the batch
+    std::vector<BodyMotion> before_;            ///< [part_bodies_]
     std::vector<BodyIndex> disturbed_;
 };
 

@@ -1,6 +1,8 @@
 /// In a batch that sleeps in part only what is disturbed wakes, and wakes at once.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "resolution/batch_fixture.h"
 
 namespace cairn {
@@ -74,6 +76,22 @@ TEST(AwakePart, WhatCarriesTheSamePushSleepsOnAndKeepsItsImpulses) {
     EXPECT_NEAR(pile.v[0].x(), 0, 1e-12);
     EXPECT_EQ(pile.contacts[5].impulse, pile.contacts[5].last_impulse);
     EXPECT_EQ(pile.contacts[0].reference_impulse, pile.contacts[0].last_impulse) << "small differences add up";
+}
+
+TEST(AwakePart, WhoIsResolvedAlongSleepsOnUnlessItIsPushed) {
+    for (const double part_of_limit : {0.9, 1.1}) {
+        Pile pile = row(4);  // of which too few sleep to be held
+        const double common = part_of_limit * wake_speed / std::sqrt(2);
+        pile.v[0] = Vec3(4 * common, 0, 0);
+        pile.resolve(holdingSleepers());
+        EXPECT_NEAR(pile.v[0].x(), common, 1e-9);
+        const bool pushed = part_of_limit > 1;
+        for (BodyIndex i = 1; i < 4; ++i) {
+            EXPECT_EQ(pile.asleep[i], pushed ? 0 : 1);
+            EXPECT_EQ(pile.woken[i], pushed ? WakeReason::struck : WakeReason::none);
+            EXPECT_NEAR(pile.v[i].x(), pushed ? common : 0, 1e-9);
+        }
+    }
 }
 
 TEST(AwakePart, AContactOfTwoAwakeBodiesIsTheNextReference) {
