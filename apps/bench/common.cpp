@@ -65,13 +65,6 @@ SettingOverrides combined(SettingOverrides all, const Variant& variant) {
     return all;
 }
 
-Variant nothingHeld(const Variant& variant) {
-    Variant made = variant;
-    made.name += made.name.empty() ? "nothing_held" : "_nothing_held";
-    made.fields.emplace_back("rest_speed", "0");
-    return made;
-}
-
 Stopwatch::Stopwatch() : wall_(std::chrono::steady_clock::now()), processor_ms_(processorMilliseconds()) {}
 
 Times Stopwatch::read() const {

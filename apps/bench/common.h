@@ -39,10 +39,6 @@ struct Variant {
 /// What a variant changes, on top of what is changed for all.
 SettingOverrides combined(SettingOverrides all, const Variant& variant);
 
-/// The variant to measure beside one with sleeping off: nothing is held. Without sleeping alone, bodies that came to
-/// rest are still held where they are (rest_speed), while other engines compute them.
-Variant nothingHeld(const Variant& variant);
-
 /// What a suite found.
 struct Outcome {
     std::string table;  ///< for the terminal

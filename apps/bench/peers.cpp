@@ -121,16 +121,9 @@ std::vector<Entry> compare(const std::string& name, const std::vector<EngineKind
     return entries;
 }
 
-/// Adds Cairn. With sleeping off it runs twice: as it is set, which holds bodies that came to rest, and with nothing
-/// held, as in the peers.
 void addCairn(const Variant& variant, const PeersOptions& options, std::vector<EngineKind>& engines) {
-    const auto add = [&](const Variant& v) -> EngineKind& {
-        return engines.emplace_back(cairnEngine(v.name, combined(options.overrides, v), options.threads));
-    };
-    EngineKind& plain = add(variant);
-    if (options.sleeping) return;
-    plain.settings += ", sleeping off: bodies that came to rest are held (rest_speed)";
-    add(nothingHeld(variant)).settings += ", sleeping off and nothing held";
+    engines.push_back(cairnEngine(variant.name, combined(options.overrides, variant), options.threads));
+    if (!options.sleeping) engines.back().settings += ", sleeping off";
 }
 
 std::vector<EngineKind> chosenEngines(const PeersOptions& options) {

@@ -15,7 +15,7 @@ struct PeersOptions {
     double steps_per_second = 240;     ///< of every engine, a multiple of 30
     std::int64_t threads = 1;          ///< of Cairn; the peers have one
     std::size_t repetitions = 3;       ///< runs of each engine, taken in turns
-    bool sleeping = true;              ///< in every engine; without, Cairn runs also with nothing held
+    bool sleeping = true;              ///< in every engine
     double longest = 1e7;              ///< scenes end then [s]
     Extent extent = Extent::full;
     Progress progress;

@@ -192,7 +192,7 @@ std::string tableOf(const std::vector<ScalingEntry>& entries) {
     constexpr const char* head = "{:<46} {:>7} {:>9} {:>9} {:>9} {:>7} {:>9} {:>7}\n";
     std::string text =
         "µs per body and time step\n"
-        "sleeping off; bodies that came to rest are held (rest_speed), but in rows nothing_held\n\n";
+        "sleeping off\n\n";
     text += fmt::format(fmt::runtime(head), "", "", "wall", "processor", "response,", "", "contacts", "bytes");
     text += fmt::format(fmt::runtime(head), "heap", "bodies", "us", "us", "wall us", "growth", "a body", "a body");
     for (const ScalingEntry& entry : entries) {
@@ -257,11 +257,8 @@ Scene scalingScene(const std::string& layout, std::int64_t bodies) {
 Outcome runScaling(const ScalingOptions& options) {
     std::vector<std::int64_t> sizes = options.sizes.empty() ? scalingSizes() : options.sizes;
     if (options.extent == Extent::quick) sizes.resize(1);
-    std::vector<Variant> variants{{}, nothingHeld({})};
-    for (const Variant& variant : options.variants) {
-        variants.push_back(variant);
-        variants.push_back(nothingHeld(variant));
-    }
+    std::vector<Variant> variants{{}};
+    variants.insert(variants.end(), options.variants.begin(), options.variants.end());
     const std::array<std::string, 2> layouts = {"one", "many"};
     for (const std::int64_t size : sizes) {  // refused before hours of work
         for (const Variant& variant : variants)

@@ -23,7 +23,6 @@ const std::vector<std::int64_t>& scalingSizes();
 /// that its bodies soon are one batch; "many" are pits of 512 bodies each. Nobody sleeps.
 Scene scalingScene(const std::string& layout, std::int64_t bodies);
 
-/// Measures every heap as it is set, which holds bodies that came to rest though nobody sleeps, and with nothing held.
 /// @throws InputError, Interrupted
 Outcome runScaling(const ScalingOptions& options);
 

@@ -143,22 +143,13 @@ Configuration configure(const std::string& name, const Variant& variant, std::in
     return made;
 }
 
-/// A pile, in which nobody sleeps, is measured as it is set, which holds bodies that came to rest, and with nothing
-/// held.
-std::vector<Variant> rowsOf(const Variant& variant, const std::string& scene) {
-    if (!isPile(scene)) return {variant};
-    return {variant, nothingHeld(variant)};
-}
-
 std::vector<Measurement> allMeasurements(const std::string& scene, const ScenesOptions& options) {
     std::vector<Variant> variants{{}};
     variants.insert(variants.end(), options.variants.begin(), options.variants.end());
     std::vector<Measurement> all;
     for (const Variant& variant : variants) {
-        for (const Variant& row : rowsOf(variant, scene)) {
-            for (const std::int64_t threads : options.threads) {
-                all.emplace_back(configure(scene, row, threads, options));
-            }
+        for (const std::int64_t threads : options.threads) {
+            all.emplace_back(configure(scene, variant, threads, options));
         }
     }
     return all;
@@ -224,8 +215,7 @@ Outcome runScenes(const ScenesOptions& options) {
     Outcome outcome;
     outcome.table = fmt::format("medians of {} runs; ms per simulation step of 1/30 s\n", repetitions);
     if (std::ranges::any_of(scenes, isPile)) {
-        outcome.table +=
-            "pile: sleeping off; bodies that came to rest are held (rest_speed), but in rows nothing_held\n";
+        outcome.table += "pile: sleeping off\n";
     }
     outcome.table += '\n' + tableOf(entries);
     outcome.json = originOf("scenes", options.extent);

@@ -17,8 +17,8 @@ struct ScenesOptions {
     Progress progress;
 };
 
-/// The scenes that are measured unless others are asked for. "pile:N" is heap:N for ten seconds with sleeping off, and
-/// once more with nothing held: what it costs while it falls, and once it lies still.
+/// The scenes that are measured unless others are asked for. "pile:N" is heap:N for ten seconds with sleeping off: what
+/// it costs while it falls, and once it lies still.
 const std::vector<std::string>& benchScenes();
 
 /// @throws InputError, Interrupted

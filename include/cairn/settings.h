@@ -97,9 +97,6 @@ struct ResolutionSettings {
     /// accelerated_sweeps leaves sleeping bodies of a batch asleep until their contacts push otherwise than when they
     /// fell asleep, by what would give them this speed [m/s], ≥ 0; 0 = they wake as soon as their batch is resolved.
     double wake_speed = 8.33e-3;
-    /// accelerated_sweeps holds awake bodies still that were slower than this before and after a step [m/s], ≥ 0, and
-    /// that something supports, until their contacts push otherwise by 25 times as much; 0 = it does not.
-    double rest_speed = 41.7e-6;
     std::int64_t sweeps = 50;  ///< sweeps over the contacts of ResolutionKind::sweep, ≥ 1
 };
 

@@ -48,7 +48,6 @@ struct BodyArrays {
     FieldArray<Vec3> force, torque;         ///< for the next step [N], [N·m, W]
     FieldArray<Vec3> constant_force, constant_torque;  ///< in every step [N], [N·m, W]
     FieldArray<std::uint8_t> asleep;                   ///< 1 = asleep
-    FieldArray<std::uint8_t> resting;                  ///< 1 = awake, but nothing changed since it came to rest
     FieldArray<WakeReason> woken;                      ///< why it woke in this step
     FieldArray<double> motion;          ///< rwa: recency-weighted average of the squared motion [m²/s²] (3.2.4)
     FieldArray<std::int32_t> supports;  ///< contacts in the direction of gravity in the last step; −1 = unknown
@@ -133,7 +132,6 @@ inline constexpr auto body_fields = std::tuple{
     BodyField{&BodyArrays::constant_force, "constant_force", "N", Change::calls, Sync::on_migration},
     BodyField{&BodyArrays::constant_torque, "constant_torque", "N·m", Change::calls, Sync::on_migration},
     BodyField{&BodyArrays::asleep, "asleep", "", Change::steps, Sync::always},
-    BodyField{&BodyArrays::resting, "resting", "", Change::steps, Sync::always},
     BodyField{&BodyArrays::woken, "woken", "", Change::steps, Sync::on_migration},
     BodyField{&BodyArrays::motion, "motion", "m²/s²", Change::steps, Sync::on_migration},
     BodyField{&BodyArrays::supports, "supports", "1", Change::steps, Sync::on_migration, [] { return -1; }},

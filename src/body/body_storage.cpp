@@ -42,7 +42,6 @@ void BodyStorage::release(BodyIndex i) {
     name[i].clear();
     mass_inv[i] = 0;
     asleep[i] = 0;
-    resting[i] = 0;
     holes_.push_back(i);
     std::push_heap(holes_.begin(), holes_.end(), std::greater<>());
     --count_;
@@ -79,7 +78,6 @@ BodyState BodyStorage::state() {
             .inertiaInv_W = inertiaInv_W,
             .linear_step = linear_step,
             .asleep = asleep,
-            .resting = resting,
             .woken = woken,
             .shock_stage = {}};
 }

@@ -20,7 +20,6 @@ struct BodyState {
     std::span<const Mat3> inertiaInv_W;  ///< [1/(kg·m²), W]; 0 for fixed bodies
     std::span<const Vec3> linear_step;   ///< ℓ: displacement by the linear velocity in this time step [m, W]
     std::span<std::uint8_t> asleep;      ///< 1 = asleep
-    std::span<std::uint8_t> resting;     ///< 1 = awake, but nothing has changed since it came to rest
     std::span<WakeReason> woken;         ///< why it woke in this step
 
     /// Sum of the global accelerations, for the correction [m/s², W].
@@ -32,9 +31,8 @@ struct BodyState {
 
     std::size_t size() const { return kind.size(); }
     bool isFixed(BodyIndex i) const { return kind[i] != BodyKind::dynamic; }
-    /// Ends a body's rest and wakes it if it sleeps, keeping the first reason of the step.
+    /// Wakes a body if it sleeps, keeping the first reason of the step.
     void wake(BodyIndex i, WakeReason reason) const {
-        resting[i] = 0;
         if (asleep[i] == 0) return;
         asleep[i] = 0;
         woken[i] = reason;

@@ -16,7 +16,7 @@ constexpr double deep_multiple = 2;
 
 /// Whether an impulse may change the velocity of a body or finds a fixed one: not of one that is held still.
 bool mayReceive(const BodyState& bodies, BodyIndex i) {
-    return bodies.isFixed(i) || (bodies.asleep[i] == 0 && bodies.resting[i] == 0);
+    return bodies.isFixed(i) || bodies.asleep[i] == 0;
 }
 
 }  // namespace

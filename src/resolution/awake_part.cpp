@@ -29,13 +29,9 @@ enum class Part : std::uint8_t {
 struct Along {
     BodyIndex body;
     std::uint8_t asleep;
-    std::uint8_t resting;
     WakeReason woken;
     double squared_reach = 0;  ///< of the farthest contact from the centre of mass [m²]
 };
-
-/// Resting bodies are disturbed by what would give them this multiple of rest_speed.
-constexpr double rest_multiple = 25;
 
 /// Stands for no index.
 constexpr std::uint32_t none = UINT32_MAX;
@@ -47,9 +43,10 @@ class AwakePart final : public Resolution {
 
     ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
                              const ResolutionSettings& settings, const Executor& executor) override {
-        const auto [sleeping, resting] = count(batch, bodies);
-        const bool all = sleeping + resting == batch.bodies.size();
-        const bool some = sleepers_ == Sleepers::remain && (resting > 0 || (sleeping > 0 && settings.wake_speed > 0));
+        const auto sleeping = static_cast<std::size_t>(
+            std::ranges::count_if(batch.bodies, [&](BodyIndex i) { return sleeps(bodies, i); }));
+        const bool all = sleeping == batch.bodies.size();
+        const bool some = sleepers_ == Sleepers::remain && sleeping > 0 && settings.wake_speed > 0;
         if ((all || some) && hasStillSupports(batch, contacts, bodies) && hasStillAnchors(batch, bodies)) {
             if (!all) return resolvePart(batch, contacts, bodies, settings, executor);
             for (const BodyIndex i : batch.bodies) hold(bodies, i);
@@ -70,23 +67,13 @@ class AwakePart final : public Resolution {
   private:
     static bool sleeps(const BodyState& bodies, BodyIndex i) { return bodies.asleep[i] != 0 && isAtRest(bodies, i); }
 
-    static std::pair<std::size_t, std::size_t> count(const BatchView& batch, const BodyState& bodies) {
-        std::size_t sleeping = 0;
-        std::size_t resting = 0;
-        for (const BodyIndex i : batch.bodies) {
-            sleeping += sleeps(bodies, i) ? 1 : 0;
-            resting += bodies.resting[i];
-        }
-        return {sleeping, resting};
-    }
-
     /// Whether no fixed body that moves is at the other end of a joint.
     static bool hasStillAnchors(const BatchView& batch, const BodyState& bodies) {
         const auto holds = [&](BodyIndex i) { return i == Joint::world || !bodies.isFixed(i) || isAtRest(bodies, i); };
         return std::ranges::all_of(batch.joints, [&](const JointBlock& j) { return holds(j.a) && holds(j.b); });
     }
 
-    /// Takes away what gravity gave to a body that rests.
+    /// Takes away what gravity gave to a body that sleeps.
     static void hold(const BodyState& bodies, BodyIndex i) {
         bodies.v[i].setZero();
         bodies.w[i].setZero();
@@ -107,7 +94,7 @@ class AwakePart final : public Resolution {
             index_of_.resize(bodies.size(), none);
         }
         for (const BodyIndex i : batch.bodies) {
-            if (bodies.resting[i] == 0 && !(sleeps(bodies, i) && settings.wake_speed > 0)) continue;
+            if (!sleeps(bodies, i)) continue;
             part_[i] = Part::held;
             hold(bodies, i);
         }
@@ -208,16 +195,14 @@ class AwakePart final : public Resolution {
             const BodyIndex i = d.body;
             const Vec3 v = bodies.mass_inv[i] * d.linear;
             const Vec3 w = bodies.inertiaInv_W[i] * d.angular;
-            if (isPush(v, w, d.squared_reach, bodies.resting[i], settings)) disturbed_.push_back(i);
+            if (isPush(v, w, d.squared_reach, settings.wake_speed)) disturbed_.push_back(i);
             index_of_[i] = none;
         }
     }
 
     /// Whether what a body would move by is beyond its limit, as the motion that falling asleep is about. What is not a
     /// number is, too.
-    static bool isPush(const Vec3& v, const Vec3& w, double squared_reach, std::uint8_t resting,
-                       const ResolutionSettings& settings) {
-        const double limit = resting != 0 ? rest_multiple * settings.rest_speed : settings.wake_speed;
+    static bool isPush(const Vec3& v, const Vec3& w, double squared_reach, double limit) {
         return !(2 * (v.squaredNorm() + w.squaredNorm() * squared_reach) <= limit * limit);
     }
 
@@ -261,7 +246,7 @@ class AwakePart final : public Resolution {
 
     void takeAlong(const BodyState& bodies, BodyIndex i) {
         if (!isHeld(i)) return;
-        along_.push_back({i, bodies.asleep[i], bodies.resting[i], bodies.woken[i]});
+        along_.push_back({i, bodies.asleep[i], bodies.woken[i]});
         part_[i] = Part::along;
         bodies.v[i] = bodies.fall;
     }
@@ -286,9 +271,8 @@ class AwakePart final : public Resolution {
             const BodyIndex i = before.body;
             index_of_[i] = none;
             bodies.asleep[i] = before.asleep;
-            bodies.resting[i] = before.resting;
             bodies.woken[i] = before.woken;
-            if (isPush(bodies.v[i], bodies.w[i], before.squared_reach, before.resting, settings)) wake(i);
+            if (isPush(bodies.v[i], bodies.w[i], before.squared_reach, settings.wake_speed)) wake(i);
         }
         spreadOverJoints(
             batch, [&](BodyIndex i) { return part_[i] == Part::free && !bodies.isFixed(i); },

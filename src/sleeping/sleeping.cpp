@@ -25,7 +25,7 @@ void wakeUnsupported(const BodyState& bodies, std::span<const std::int32_t> befo
                      const Executor& executor) {
     executor.forBlocks(bodies.size(), [&](std::size_t begin, std::size_t end, int) {
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
-            if (bodies.asleep[i] == 0 && bodies.resting[i] == 0) continue;
+            if (bodies.asleep[i] == 0) continue;
             if (now[i] < before[i]) bodies.wake(i, WakeReason::support_lost);
             if (now[i] == 0) bodies.wake(i, WakeReason::floating);
         }
@@ -53,7 +53,6 @@ void putToSleep(const BodyState& bodies, const MotionState& state, BodyIndex i, 
     bodies.w[i].setZero();
     state.motion[i] = threshold;
     bodies.asleep[i] = 1;
-    bodies.resting[i] = 0;
 }
 
 }  // namespace

@@ -23,8 +23,7 @@ inline double squaredMotion(const Vec3& v, const Vec3& w, double r_max) {
 void countSupports(std::span<const BodyKind> kind, std::span<const Contact> contacts, const Vec3& acceleration,
                    std::span<std::int32_t> supports);
 
-/// Wakes sleeping bodies that lost a support since the last step (condition 5) or have none (condition 6), and ends the
-/// rest of those that rest.
+/// Wakes sleeping bodies that lost a support since the last step (condition 5) or have none (condition 6).
 /// @param before supports of the last step, −1 = unknown; @param now of this step
 void wakeUnsupported(const BodyState& bodies, std::span<const std::int32_t> before, std::span<const std::int32_t> now,
                      const Executor& executor);

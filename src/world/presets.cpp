@@ -32,7 +32,6 @@ void setPerformance(Settings& s, double scale) {
     s.resolution.restitution_threshold *= scale;
     s.resolution.sweep_tolerance *= scale;
     s.resolution.wake_speed *= scale;
-    s.resolution.rest_speed *= scale;
     s.sleep.sleep_threshold *= scale;
     s.gravity_damping.damping_threshold *= scale;
 }
@@ -54,7 +53,6 @@ void setAccuracy(Settings& s, double scale) {
     s.resolution.direct_limit = 1000;
     s.resolution.direct_pairs = 0;
     s.resolution.wake_speed = 0.52e-3 * scale;
-    s.resolution.rest_speed = 0;
     s.sleep.sleep_threshold = 0.52e-3 * scale;
     s.gravity_damping.damping = 0;
     s.gravity_damping.damping_threshold = 0;
@@ -77,7 +75,6 @@ void setThesisAlgorithms(Settings& s) {
     s.resolution.shock_iterations = 6;
     s.resolution.queue_switch = 64;
     s.resolution.wake_speed = 0;
-    s.resolution.rest_speed = 0;
     s.sleep.sleeping = true;
     s.sleep.motion_limit = 3;
     s.integration.gyroscopic = true;

@@ -46,7 +46,6 @@ void quarantine(WorldState& world) {
         bodies.constant_force[i].setZero();
         bodies.constant_torque[i].setZero();
         bodies.asleep[i] = 0;
-        bodies.resting[i] = 0;
         bodies.kind[i] = BodyKind::fixed;
         bodies.updateMassProperties(i);
     }

@@ -159,9 +159,6 @@ const std::vector<SettingField>& settingTable() {
         plain<&S::resolution, &R::wake_speed>(
             "wake_speed", "resolution", "m/s", 0, 1e3,
             "'accelerated_sweeps' lets bodies sleep until their contacts' push changes by so much; 0 = not"),
-        plain<&S::resolution, &R::rest_speed>(
-            "rest_speed", "resolution", "m/s", 0, 1e3,
-            "'accelerated_sweeps' holds supported bodies still that stay slower; 0 = not"),
         plain<&S::resolution, &R::sweeps>("sweeps", "resolution", "", 1, 1e6,
                                           "sweeps over the contacts of the resolution 'sweep'"),
         plain<&S::sleep, &L::sleeping>("sleeping", "sleep", "", 0, 1, "bodies at rest fall asleep"),

@@ -158,8 +158,7 @@ void loadBodies(ByteReader& in, std::size_t materials, BodyStorage& b) {
     bodyFields(in, b, slots);
     if (std::ranges::any_of(b.kind, [](BodyKind kind) { return kind > BodyKind::dynamic; }) ||
         std::ranges::any_of(b.woken, [](WakeReason reason) { return reason > WakeReason::floating; }) ||
-        std::ranges::any_of(b.asleep, [](std::uint8_t asleep) { return asleep > 1; }) ||
-        std::ranges::any_of(b.resting, [](std::uint8_t resting) { return resting > 1; })) {
+        std::ranges::any_of(b.asleep, [](std::uint8_t asleep) { return asleep > 1; })) {
         in.refuse("an unknown state of a body");
     }
     checkNumbers(in, {b.number.begin(), b.number.end()}, next_number);

@@ -3,7 +3,6 @@
 
 #include "integration/integration.h"
 #include "pairs/warm_start.h"
-#include "sleeping/resting.h"
 #include "sleeping/sleeping.h"
 #include "world/checks.h"
 #include "world/diagnostics.h"
@@ -123,26 +122,6 @@ void correctStage(WorldState& world) {
     }
 }
 
-/// Whether bodies may rest: only one resolution holds them, and without gravity nothing is at rest.
-bool mayRest(const WorldState& world) {
-    const ResolutionSettings& settings = world.settings.resolution;
-    return settings.resolution == ResolutionKind::accelerated_sweeps && settings.rest_speed > 0 &&
-           !(world.gravity + world.global_acceleration).isZero(0);
-}
-
-/// Bodies at joints and springs never rest: what those do to them depends on the bodies at their other ends.
-void noteSlowBodies(WorldState& world) {
-    if (!mayRest(world)) return;
-    std::vector<std::uint8_t>& slow = world.data.slow;
-    noteSlow(world.bodies, world.settings.resolution.rest_speed, world.executor, slow);
-    for (const BodyIndex body : world.data.joint_groups.bodies) slow[body] = 0;
-    for (const Spring& spring : world.springs) {
-        if (!spring.present) continue;
-        slow[spring.a] = 0;
-        if (spring.b != Spring::world_point) slow[spring.b] = 0;
-    }
-}
-
 void velocityStage(WorldState& world) {
     StepData& data = world.data;
     const Vec3 acceleration = world.gravity + world.global_acceleration;
@@ -159,7 +138,6 @@ void velocityStage(WorldState& world) {
     const bool exact = world.settings.integration.exact_flight;
     const bool touching = world.settings.resolution.restitution_speed == RestitutionSpeed::touching;
     if (exact || touching) noteVelocities(world.bodies, world.executor, data.before);
-    noteSlowBodies(world);
     advanceVelocities(world.bodies, acceleration, world.settings.gravity_damping, world.settings.timeStep(),
                       world.executor, exact ? std::optional(world.steps) : std::nullopt);
     applySprings(world.springs, world.bodies, world.settings.timeStep());
@@ -208,9 +186,6 @@ void resolveStage(WorldState& world) {
 }
 
 void sleepStage(WorldState& world) {
-    if (mayRest(world)) {
-        letRest(world.bodies, world.settings.resolution.rest_speed, world.data.slow, world.executor);
-    }
     // In zero gravity nothing rests: a slow body that was stopped would lose its momentum.
     const bool weightless = (world.gravity + world.global_acceleration).isZero(0);
     if (!world.settings.sleep.sleeping || weightless) return;

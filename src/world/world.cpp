@@ -31,10 +31,6 @@ void WorldState::applySettings(const Settings& s) {
         steps_at_start = steps;
         time_at_start = time;
     }
-    // Rest is about the impulses of steps of one length, by a resolution that remembers them.
-    if (s.steps_per_second != settings.steps_per_second || s.resolution.resolution != settings.resolution.resolution) {
-        std::ranges::fill(bodies.resting, std::uint8_t{0});
-    }
     settings = s;
 }
 

@@ -58,7 +58,6 @@ struct StepData {
     BatchScratch batch_scratch;           ///< batches: kept memory
     std::vector<std::uint32_t> schedule;  ///< batches: order of work, large ones first
     std::size_t large_batches = 0;        ///< batches: how many of the schedule are large
-    std::vector<std::uint8_t> slow;       ///< velocities: [slots] 1 = may come to rest
     VelocitiesBefore before;              ///< velocities: [slots], with exact_flight or RestitutionSpeed::touching only
     JointGroups joint_groups;             ///< events: joints connected by bodies that can move
     std::vector<std::uint8_t> jointed;    ///< events: [slots] 1 = has a joint; empty without joints

@@ -141,7 +141,7 @@ TEST(Validation, WritesAnOverviewThatLeadsToAPageOfEachCase) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "validation" / "slide-to-roll.md"));
 }
 
-TEST(Validation, JudgesStacksHeldAtRestAndWithNothingHeld) {
+TEST(Validation, JudgesStacksWithEverythingComputed) {
     ValidateOptions options;
     options.extent = Extent::quick;
     options.only = {"mass-ratios"};
@@ -150,9 +150,7 @@ TEST(Validation, JudgesStacksHeldAtRestAndWithNothingHeld) {
     for (const Json& q : outcome.report.at("cases").at(0).at("quantities")) {
         if (q.at("what") == "resolutions per step") resolutions[q.at("setup")] = q.at("measured");
     }
-    const std::string stack = "ratio 1000, performance, Δt = 1/240 s, accelerated_sweeps, ";
-    EXPECT_LT(resolutions.at(stack + "sleeping off"), 1);
-    EXPECT_GT(resolutions.at(stack + "nothing held"), 1);
+    EXPECT_GT(resolutions.at("ratio 1000, performance, Δt = 1/240 s, accelerated_sweeps"), 1);
 }
 
 TEST(Quantity, MissesItsTargetWhenTheErrorIsTooLargeOrNotANumber) {

@@ -19,7 +19,6 @@ void expectTheThesissAlgorithms(const Settings& s) {
     EXPECT_EQ(s.resolution.restitution_speed, RestitutionSpeed::closing);
     EXPECT_EQ(s.resolution.impacts, Impacts::of_resolution);
     EXPECT_EQ(s.resolution.wake_speed, 0);
-    EXPECT_EQ(s.resolution.rest_speed, 0);
     EXPECT_TRUE(s.sleep.sleeping);
     EXPECT_FALSE(s.integration.exact_flight);
 }

@@ -111,18 +111,11 @@ inline void judge(Result& result, const Standing& s, const std::string& setup, c
     result.show("wall time per step", "ms", s.ms, setup);
 }
 
-/// How bodies at rest are treated that do not sleep.
-enum class AtRest {
-    held,         ///< as the performance preset does: those that came to rest keep their place (rest_speed)
-    nothing_held  ///< everything is computed in every step
-};
-
 /// The performance preset with sleeping off.
-inline Settings performanceSettings(ResolutionKind resolver, AtRest at_rest) {
+inline Settings performanceSettings(ResolutionKind resolver) {
     Settings settings = Settings::preset(Preset::performance, 240, g);
     settings.sleep.sleeping = false;
     settings.resolution.resolution = resolver;
-    if (at_rest == AtRest::nothing_held) settings.resolution.rest_speed = 0;
     return settings;
 }
 
@@ -134,9 +127,7 @@ inline std::vector<double> stackRates(const Plan& plan) {
     return plan.isQuick() ? std::vector<double>{} : std::vector<double>{240, 3840};
 }
 
-/// Judges a stack with either preset and shows it with the other resolutions. Of these and in the accuracy preset
-/// nothing is held; in the performance preset the judged one holds bodies that came to rest, so it is judged with and
-/// without.
+/// Judges a stack with either preset and shows it with the other resolutions.
 /// @param name of the stack @param duration that it is to stand [s] @param rates further steps per second of the
 /// accuracy preset, with the resolution that is judged
 inline void judgeAllResolvers(Result& result, const std::string& name, double duration, const Plan& plan,
@@ -153,14 +144,10 @@ inline void judgeAllResolvers(Result& result, const std::string& name, double du
         judge(result, stand(accurateSettings(rate, judged.kind), judged.patience(plan)),
               setup("accuracy", rate, judged), judged, {duration, 1e-4, true});
     }
-    const auto judgeFast = [&](const Resolver& resolver, AtRest at_rest, const char* row) {
-        judge(result, stand(performanceSettings(resolver.kind, at_rest), resolver.patience(plan)),
-              setup("performance", 240, resolver) + row, resolver, {duration, 2e-3, false});
-    };
     for (const Resolver& resolver : resolvers) {
-        judgeFast(resolver, AtRest::held, resolver.isJudged() ? ", sleeping off" : "");
+        judge(result, stand(performanceSettings(resolver.kind), resolver.patience(plan)),
+              setup("performance", 240, resolver), resolver, {duration, 2e-3, false});
     }
-    judgeFast(judged, AtRest::nothing_held, ", nothing held");
 }
 
 }  // namespace cairn::validation

@@ -45,8 +45,7 @@ const Case walls{"walls",
                  "Walls of bricks stand",
                  "drift 0; impulse of the ground n·m·g·Δt",
                  "Triangular walls of 55 and 465 bricks of 20 × 10 × 10 cm and 1 kg, µ = 0.5, e = 0.25, 60 s, sleeping "
-                 "off. The performance preset holds bodies that came to rest: rows \"nothing held\" are without. "
-                 "Judged with accelerated_sweeps; the other resolutions are shown, for 20 s of wall time each.",
+                 "off. Judged with accelerated_sweeps; the other resolutions are shown, for 20 s of wall time each.",
                  walls_case::run};
 
 }  // namespace cairn::validation
