@@ -15,10 +15,11 @@ namespace cairn {
 
 /// Where all fields begin.
 enum class Preset {
-    performance,     ///< for real time
-    accuracy,        ///< the other end of the dial between speed and truth
-    thesis,          ///< the thesis's algorithms with its high performance settings. @source thesis §5.1
-    thesis_accuracy  ///< and with its high accuracy settings. @source thesis §5.5
+    performance,      ///< for real time
+    accuracy,         ///< the other end of the dial between speed and truth
+    thesis,           ///< the thesis's algorithms with its high performance settings. @source thesis §5.1
+    thesis_accuracy,  ///< and with its high accuracy settings. @source thesis §5.5
+    robust  ///< for piles of any depth and bodies of any size: slower than performance, at 240 steps per second
 };
 
 /// The name of each preset, in the order of the enumeration, as in scene files and `--preset`.
@@ -52,14 +53,22 @@ enum class Impacts { of_resolution, sequential, simultaneous };
 /// Broad and narrow phase.
 struct DetectionSettings {
     BroadPhaseKind broad_phase = BroadPhaseKind::hash_grids;  ///< all_pairs is its slow oracle
-    double contact_margin = 1e-4;  ///< contacts are reported up to this distance before touching [m], ≥ 0
+    /// Contacts are reported up to this distance before touching [m], ≥ 0; where penetration_threshold is 0, 0 stands
+    /// for a sixteenth of the overlap that is allowed.
+    double contact_margin = 1e-4;
+    /// And so are those of bodies that would meet before the next detection: accelerated_sweeps lets them come just so
+    /// close, and nothing flies into or through anything. Not with RestitutionSpeed::touching.
+    bool speculative_contacts = false;
 };
 
 /// Penetration correction. @source thesis §2
 struct CorrectionSettings {
     CorrectionKind correction = CorrectionKind::propagated;  ///< the algorithm, or none
-    double penetration_threshold = 1.74e-3;  ///< overlap above which a contact is corrected [m]; −thr_pen of the thesis
-    double remaining_penetration = 0.7;      ///< part of the threshold that a correction leaves, in (0, 1) (2.5.4)
+    /// Overlap above which a contact is corrected [m]; −thr_pen of the thesis; 0 = allowed_overlap, only without
+    /// CorrectionKind::propagated.
+    double penetration_threshold = 1.74e-3;
+    double allowed_overlap = 0.0145;     ///< the same as a part of the smaller body's smallest extent, > 0
+    double remaining_penetration = 0.7;  ///< part of the threshold that a correction leaves, in (0, 1) (2.5.4)
     /// Further attempts for contacts that no candidate corrects: the first for those deeper than 1.14 times the
     /// threshold, then 1.5 times, each next one for twice that, so that a deep overlap in a tight pile is spread over
     /// its neighbours. 0 = none, as in the thesis; 0 to 16.
@@ -85,6 +94,10 @@ struct ResolutionSettings {
     std::int64_t queue_switch = 64;  ///< batches with more contacts use the ordered queue (§3.8)
     std::int64_t sweep_limit = 10;   ///< most sweeps (forth and back) of accelerated_sweeps for a batch at rest, ≥ 1
     std::int64_t moving_sweep_limit = 2;  ///< the same where a contact closes faster than restitution_threshold, ≥ 1
+    /// In place of these two: batches that move are swept, sweep_limit times at most, until what all further sweeps
+    /// would change is estimated to be no more than this part of what the first one changed, or of what gravity gives
+    /// the bodies in a step; 0 = moving_sweep_limit sweeps, whatever they change.
+    double moving_tolerance = 0;
     double small_sweep_part =
         0.5;                     ///< and of that the part for batches of fewer than 1024 contacts, 0 to 1; at least one
     double sliding_part = 0.03;  ///< and where more than this part of the contacts slide faster, 0 to 1; 1 = never

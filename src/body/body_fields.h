@@ -44,6 +44,7 @@ struct BodyArrays {
     FieldArray<Vec3> inertiaInv_B;          ///< [1/(kg·m²), B]; 0 = fixed
     FieldArray<Mat3> inertiaInv_W;          ///< [1/(kg·m²), W]; follows the orientation
     FieldArray<double> r_max;               ///< largest distance of a surface point from the centre [m]
+    FieldArray<double> r_min;               ///< radius of a ball that fits into it [m]: half of its smallest extent
     FieldArray<Vec3> linear_step;           ///< ℓ: displacement by the linear velocity in this time step [m, W]
     FieldArray<Vec3> force, torque;         ///< for the next step [N], [N·m, W]
     FieldArray<Vec3> constant_force, constant_torque;  ///< in every step [N], [N·m, W]
@@ -126,6 +127,7 @@ inline constexpr auto body_fields = std::tuple{
     BodyField{&BodyArrays::inertiaInv_B, "inertiaInv_B", "1/(kg·m²)", Change::calls, Sync::on_creation},
     BodyField{&BodyArrays::inertiaInv_W, "inertiaInv_W", "1/(kg·m²)", Change::steps, Sync::always},
     BodyField{&BodyArrays::r_max, "r_max", "m", Change::calls, Sync::on_creation},
+    BodyField{&BodyArrays::r_min, "r_min", "m", Change::calls, Sync::on_creation},
     BodyField{&BodyArrays::linear_step, "linear_step", "m", Change::anew, Sync::always},
     BodyField{&BodyArrays::force, "force", "N", Change::steps, Sync::on_migration},
     BodyField{&BodyArrays::torque, "torque", "N·m", Change::steps, Sync::on_migration},

@@ -72,9 +72,11 @@ void BodyStorage::updateMassProperties(BodyIndex i) {
 BodyState BodyStorage::state() {
     return {.kind = kind,
             .position = position,
+            .orientation = orientation,
             .v = v,
             .w = w,
             .mass_inv = mass_inv,
+            .inertiaInv_B = inertiaInv_B,
             .inertiaInv_W = inertiaInv_W,
             .linear_step = linear_step,
             .asleep = asleep,

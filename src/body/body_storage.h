@@ -14,16 +14,20 @@ namespace cairn {
 struct BodyState {
     std::span<const BodyKind> kind;
     std::span<Vec3> position;            ///< centre of mass [m, W]
+    std::span<Quat> orientation;         ///< B to W
     std::span<Vec3> v;                   ///< [m/s, W]
     std::span<Vec3> w;                   ///< [rad/s, W]
     std::span<const double> mass_inv;    ///< [1/kg]; 0 for fixed bodies
-    std::span<const Mat3> inertiaInv_W;  ///< [1/(kg·m²), W]; 0 for fixed bodies
+    std::span<const Vec3> inertiaInv_B;  ///< [1/(kg·m²), B]; 0 for fixed bodies
+    std::span<Mat3> inertiaInv_W;        ///< [1/(kg·m²), W]; 0 for fixed bodies
     std::span<const Vec3> linear_step;   ///< ℓ: displacement by the linear velocity in this time step [m, W]
     std::span<std::uint8_t> asleep;      ///< 1 = asleep
     std::span<WakeReason> woken;         ///< why it woke in this step
 
     /// Sum of the global accelerations, for the correction [m/s², W].
     Vec3 acceleration = Vec3::Zero();
+    /// The length of a time step, for the resolution [s].
+    double time_step = 0;
     /// What gravity gives a body at rest in this time step [m/s, W].
     Vec3 fall = Vec3::Zero();
     /// Subset of the shock propagation; empty unless the step is traced.

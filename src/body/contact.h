@@ -14,6 +14,8 @@ struct Contact {
     Vec3 point = Vec3::Zero();    ///< [m, W]
     Vec3 normal = Vec3::UnitX();  ///< n̂_BA_W: unit, from B to A
     double distance = 0;          ///< along the normal [m]; negative = overlap
+    double allowed_overlap = 0;   ///< that the correction leaves alone [m], ≥ 0
+    double allowed_closing = 0;   ///< closing speed at which it does not touch before the next detection [m/s], ≥ 0
     double restitution = 0;
     double static_friction = 0;
     double kinetic_friction = 0;
@@ -24,6 +26,9 @@ struct Contact {
     Vec3 reference_impulse = Vec3::Zero();
     Vec3 impulse = Vec3::Zero();          ///< sum of what A received in this step [N·s, W]; B received the opposite
     Vec3 angular_impulse = Vec3::Zero();  ///< of rolling and spinning friction, likewise [N·m·s, W]
+
+    /// Whether the bodies are apart and only may touch before the next detection.
+    bool isForeseen() const { return allowed_closing > 0; }
 
     // With RestitutionSpeed::touching only, where a is the acceleration by which the forces close the contact.
     double gap = 0;     ///< distance when it was detected, before the correction [m]

@@ -16,6 +16,7 @@ struct ContactPair : BodyPair {
     std::uint32_t first = 0;         ///< index of the first contact of the last detection
     std::uint32_t count = untested;  ///< number of contacts
     bool touched = false;            ///< at the end of the last step
+    bool ahead = false;              ///< the contacts depend on velocities: a body of the pair was looked ahead for
 
     /// Stands for the number before the first test.
     static constexpr std::uint32_t untested = UINT32_MAX;

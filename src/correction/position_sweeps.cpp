@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "math/rotation.h"
+
 namespace cairn {
 
 namespace {
@@ -13,6 +15,9 @@ constexpr int usual_sweeps = 3;
 /// And so many as long as a sweep still finds contacts deeper than a multiple of the threshold, as in impacts.
 constexpr int most_sweeps = 20;
 constexpr double deep_multiple = 2;
+/// What is far too deep is left so deep in one step: pushes apart of all of it would drive others into each other,
+/// which this step does not see.
+constexpr double left_of_deep = 0.5;
 
 /// Whether an impulse may change the velocity of a body or finds a fixed one: not of one that is held still.
 bool mayReceive(const BodyState& bodies, BodyIndex i) {
@@ -23,15 +28,15 @@ bool mayReceive(const BodyState& bodies, BodyIndex i) {
 
 CorrectionCounts PositionSweeps::correct(const BatchView& batch, const ContactsOfBodies&, std::span<Contact> contacts,
                                          const BodyState& bodies, const CorrectionSettings& settings) {
-    const double threshold = -settings.penetration_threshold;  // thr_pen
     CorrectionCounts counts;
-    counts.penetrating = std::ranges::count_if(
-        batch.contacts, [&](std::uint32_t index) { return contacts[index].distance < threshold; });
+    counts.penetrating = std::ranges::count_if(batch.contacts, [&](std::uint32_t index) {
+        return contacts[index].distance < -contacts[index].allowed_overlap;
+    });
     if (counts.penetrating == 0) return counts;
     gather(batch, contacts, bodies);
     for (int i = 1; i <= most_sweeps; ++i) {
-        const double deepest = sweep(threshold, settings.remaining_penetration * threshold);
-        if (!(deepest < (i < usual_sweeps ? threshold : deep_multiple * threshold))) break;
+        const double deepest = sweep(settings.remaining_penetration);
+        if (!(deepest > (i < usual_sweeps ? 1 : deep_multiple))) break;
     }
     counts.displaced = displace(batch, bodies);
     pay(contacts, bodies);
@@ -40,8 +45,8 @@ CorrectionCounts PositionSweeps::correct(const BatchView& batch, const ContactsO
         const Vec3& a = shares_[overlap.a].displacement;
         const Vec3& b = shares_[overlap.b].displacement;
         contact.point += 0.5 * (a + b);
-        contact.distance += (a - b).dot(contact.normal);
-        if (overlap.distance < threshold && !(contact.distance < threshold)) ++counts.corrected;
+        contact.distance = distanceOf(overlap);
+        if (overlap.distance < overlap.threshold && !(contact.distance < overlap.threshold)) ++counts.corrected;
     }
     counts.uncorrected = counts.penetrating - counts.corrected;
     return counts;
@@ -56,36 +61,58 @@ void PositionSweeps::gather(const BatchView& batch, std::span<const Contact> con
     overlaps_.clear();
     for (const std::uint32_t index : batch.contacts) {
         const Contact& contact = contacts[index];
-        const double inverse_a = bodies.mass_inv[contact.a];
-        const double part_a = inverse_a / (inverse_a + bodies.mass_inv[contact.b]);
-        if (!std::isfinite(part_a) || !std::isfinite(contact.distance)) continue;
-        overlaps_.push_back({contact.normal, contact.distance, part_a, 1 - part_a,
-                             bodies.isFixed(contact.a) ? fixed : local_[contact.a],
-                             bodies.isFixed(contact.b) ? fixed : local_[contact.b], index});
+        Overlap o;
+        o.normal = contact.normal;
+        o.distance = contact.distance;
+        o.threshold = -contact.allowed_overlap;
+        o.lever_a = (contact.point - bodies.position[contact.a]).cross(contact.normal);
+        o.lever_b = (contact.point - bodies.position[contact.b]).cross(contact.normal);
+        o.turn_a = bodies.inertiaInv_W[contact.a] * o.lever_a;
+        o.turn_b = bodies.inertiaInv_W[contact.b] * o.lever_b;
+        o.mass_a = bodies.mass_inv[contact.a];
+        o.mass_b = bodies.mass_inv[contact.b];
+        o.k = o.mass_a + o.mass_b + o.turn_a.dot(o.lever_a) + o.turn_b.dot(o.lever_b);
+        if (!(o.k > 0 && std::isfinite(o.k)) || !std::isfinite(contact.distance)) continue;
+        o.a = bodies.isFixed(contact.a) ? fixed : local_[contact.a];
+        o.b = bodies.isFixed(contact.b) ? fixed : local_[contact.b];
+        o.index = index;
+        overlaps_.push_back(o);
     }
 }
 
-/// Visits all contacts forth and back. @return the smallest distance found on the way forth [m], 0 if none is too small
-double PositionSweeps::sweep(double threshold, double remaining) {
+/// Visits all contacts forth and back. @return the largest overlap found on the way forth, as a multiple of what is
+/// allowed; 0 if none is too deep
+double PositionSweeps::sweep(double remaining) {
     double deepest = 0;
     for (const Overlap& overlap : overlaps_) {
-        deepest = std::min(deepest, separate(overlap, threshold, remaining));
+        deepest = std::max(deepest, separate(overlap, remaining));
     }
     if (deepest == 0) return 0;
-    for (std::size_t i = overlaps_.size(); i-- > 0;) separate(overlaps_[i], threshold, remaining);
+    for (std::size_t i = overlaps_.size(); i-- > 0;) separate(overlaps_[i], remaining);
     return deepest;
 }
 
-/// Moves the bodies of one contact apart if it is too deep by now. @return the distance found then, else 0 [m]
-inline double PositionSweeps::separate(const Overlap& overlap, double threshold, double remaining) {
-    Vec3& a = shares_[overlap.a].displacement;
-    Vec3& b = shares_[overlap.b].displacement;
-    const double distance = overlap.distance + (a - b).dot(overlap.normal);
-    if (!(distance < threshold)) return 0;
-    const Vec3 push = (remaining - distance) * overlap.normal;
-    a += overlap.part_a * push;
-    b -= overlap.part_b * push;
-    return distance;
+/// Moves the bodies of one contact apart if it is too deep by now. @return how deep as sweep() says, else 0
+inline double PositionSweeps::separate(const Overlap& overlap, double remaining) {
+    Share& a = shares_[overlap.a];
+    Share& b = shares_[overlap.b];
+    const double distance = distanceOf(overlap);
+    if (!(distance < overlap.threshold)) return 0;
+    const double goal = std::min(remaining * overlap.threshold, left_of_deep * overlap.distance);
+    if (!(distance < goal)) return 0;
+    const double push = (goal - distance) / overlap.k;
+    a.displacement += push * overlap.mass_a * overlap.normal;
+    a.turn += push * overlap.turn_a;
+    b.displacement -= push * overlap.mass_b * overlap.normal;
+    b.turn -= push * overlap.turn_b;
+    return distance / overlap.threshold;
+}
+
+double PositionSweeps::distanceOf(const Overlap& overlap) const {
+    const Share& a = shares_[overlap.a];
+    const Share& b = shares_[overlap.b];
+    return overlap.distance + (a.displacement - b.displacement).dot(overlap.normal) + a.turn.dot(overlap.lever_a) -
+           b.turn.dot(overlap.lever_b);
 }
 
 /// Moves the bodies, wakes them and finds out what they owe. @return how many were moved
@@ -94,9 +121,13 @@ std::int64_t PositionSweeps::displace(const BatchView& batch, const BodyState& b
     for (std::size_t i = 0; i < batch.bodies.size(); ++i) {
         const BodyIndex body = batch.bodies[i];
         Share& share = shares_[i];
-        if (!share.displacement.allFinite()) share.displacement.setZero();
+        if (!share.displacement.allFinite() || !share.turn.allFinite()) share = {};
         if (share.displacement.isZero(0)) continue;
         bodies.position[body] += share.displacement;
+        if (!share.turn.isZero(0)) {
+            bodies.orientation[body] = (fromRotationVector(share.turn) * bodies.orientation[body]).normalized();
+            bodies.inertiaInv_W[body] = toWorldInertia(bodies.inertiaInv_B[body], bodies.orientation[body]);
+        }
         bodies.wake(body, WakeReason::displaced);
         share.debt = std::max(0.0, -bodies.acceleration.dot(share.displacement) / bodies.mass_inv[body]);
         ++moved;

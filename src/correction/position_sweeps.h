@@ -29,8 +29,14 @@ class PositionSweeps final : public Correction {
     struct Overlap {
         Vec3 normal;              ///< from B to A [W]
         double distance = 0;      ///< before the correction [m]
-        double part_a = 0;        ///< part of a push that moves A: its share of the inverse masses
-        double part_b = 0;        ///< likewise of B; the two make 1
+        double threshold = 0;     ///< of the distance, below which the bodies move apart [m], ≤ 0
+        Vec3 lever_a;             ///< from the centre of mass of A to the contact, × normal [m]
+        Vec3 lever_b;             ///< likewise of B
+        Vec3 turn_a;              ///< I_A⁻¹·lever_a [1/(kg·m)]
+        Vec3 turn_b;              ///< likewise of B
+        double mass_a = 0;        ///< inverse mass of A [1/kg]
+        double mass_b = 0;        ///< likewise of B
+        double k = 0;             ///< what a unit push along the normal changes of the distance [1/kg]
         std::uint32_t a = 0;      ///< local index of A; that of all fixed bodies is the last
         std::uint32_t b = 0;      ///< local index of B
         std::uint32_t index = 0;  ///< in the contact array
@@ -38,12 +44,14 @@ class PositionSweeps final : public Correction {
     /// What happens to a body.
     struct Share {
         Vec3 displacement = Vec3::Zero();  ///< [m, W]
+        Vec3 turn = Vec3::Zero();          ///< rotation vector [W]
         double debt = 0;                   ///< potential energy gained and not paid for yet [J], ≥ 0
     };
 
     void gather(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies);
-    double sweep(double threshold, double remaining);
-    double separate(const Overlap& overlap, double threshold, double remaining);
+    double sweep(double remaining);
+    double separate(const Overlap& overlap, double remaining);
+    double distanceOf(const Overlap& overlap) const;
     std::int64_t displace(const BatchView& batch, const BodyState& bodies);
     void pay(std::span<const Contact> contacts, const BodyState& bodies);
     void payAt(const Contact& contact, Share& a, Share& b, const BodyState& bodies);

@@ -22,6 +22,10 @@ double radius(const Box& box) {
     return 0.5 * box.size.norm();
 }
 
+double innerRadius(const Box& box) {
+    return 0.5 * box.size.minCoeff();
+}
+
 Bounds bounds(const Box& box, const Pose& pose) {
     const Vec3 extent = pose.orientation.toRotationMatrix().cwiseAbs() * (0.5 * box.size);
     return {pose.position - extent, pose.position + extent};
@@ -32,7 +36,8 @@ Vec3 farthest(const Box& box, const Vec3& direction) {
             std::copysign(0.5 * box.size.z(), direction.z())};
 }
 
-constexpr ShapeEntry box_entry = finiteShapeEntry<Box, validate, massProperties, radius, bounds, farthest>("box");
+constexpr ShapeEntry box_entry =
+    finiteShapeEntry<Box, validate, massProperties, radius, innerRadius, bounds, farthest>("box");
 
 }  // namespace
 

@@ -29,6 +29,10 @@ double radius(const Capsule& capsule) {
     return 0.5 * capsule.length + capsule.radius;
 }
 
+double innerRadius(const Capsule& capsule) {
+    return capsule.radius;
+}
+
 Bounds bounds(const Capsule& capsule, const Pose& pose) {
     const Vec3 axis = pose.orientation * Vec3::UnitZ();
     const Vec3 extent = (0.5 * capsule.length * axis).cwiseAbs().array() + capsule.radius;
@@ -42,7 +46,7 @@ Vec3 farthest(const Capsule& capsule, const Vec3& direction) {
 }
 
 constexpr ShapeEntry capsule_entry =
-    finiteShapeEntry<Capsule, validate, massProperties, radius, bounds, farthest>("capsule");
+    finiteShapeEntry<Capsule, validate, massProperties, radius, innerRadius, bounds, farthest>("capsule");
 
 }  // namespace
 

@@ -1,4 +1,5 @@
 #include <fmt/core.h>
+#include <algorithm>
 
 #include <cmath>
 
@@ -69,6 +70,12 @@ double radius(const Compound& compound) {
     return farthest;
 }
 
+double innerRadius(const Compound& compound) {
+    double thinnest = std::numeric_limits<double>::infinity();
+    for (const CompoundPart& part : compound.parts) thinnest = std::min(thinnest, smallestRadius(part.shape));
+    return thinnest;
+}
+
 Bounds bounds(const Compound& compound, const Pose& pose) {
     Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity());
     Vec3 upper = -lower;
@@ -94,7 +101,7 @@ Vec3 farthest(const Compound& compound, const Vec3& direction) {
 }
 
 constexpr ShapeEntry compound_entry =
-    finiteShapeEntry<Compound, validate, massProperties, radius, bounds, farthest>("compound");
+    finiteShapeEntry<Compound, validate, massProperties, radius, innerRadius, bounds, farthest>("compound");
 
 /// Centre of mass of a part in the frame of the compound. @param p whose quaternion may have any length
 Vec3 centreOf(const PartMass& p) {

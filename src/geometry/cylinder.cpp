@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -23,6 +24,10 @@ double radius(const Cylinder& cylinder) {
     return std::hypot(cylinder.radius, 0.5 * cylinder.length);
 }
 
+double innerRadius(const Cylinder& cylinder) {
+    return std::min(cylinder.radius, 0.5 * cylinder.length);
+}
+
 Bounds bounds(const Cylinder& cylinder, const Pose& pose) {
     const Vec3 axis = pose.orientation * Vec3::UnitZ();
     // A disc reaches radius·sin of the angle between its axis and the direction.
@@ -37,7 +42,7 @@ Vec3 farthest(const Cylinder& cylinder, const Vec3& direction) {
 }
 
 constexpr ShapeEntry cylinder_entry =
-    finiteShapeEntry<Cylinder, validate, massProperties, radius, bounds, farthest>("cylinder");
+    finiteShapeEntry<Cylinder, validate, massProperties, radius, innerRadius, bounds, farthest>("cylinder");
 
 }  // namespace
 

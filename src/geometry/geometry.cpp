@@ -49,6 +49,10 @@ double largestRadius(const Shape& shape) {
     return entryOf(shape).largest_radius(shape);
 }
 
+double smallestRadius(const Shape& shape) {
+    return entryOf(shape).smallest_radius(shape);
+}
+
 Bounds boundsOf(const Shape& shape, const Pose& pose) {
     return entryOf(shape).bounds(shape, pose);
 }

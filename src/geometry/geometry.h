@@ -48,6 +48,9 @@ bool isInfinite(const Shape& shape);
 UnitMassProperties unitMassProperties(const Shape& shape);
 /// Largest distance of a surface point from the centre of mass [m]: r_max of thesis (3.2.2); infinite for a half-space.
 double largestRadius(const Shape& shape);
+/// Radius of a ball that fits into the shape about its middle [m]: half of what a box or a plate is thick, and of a
+/// compound that of its thinnest part; infinite for a half-space.
+double smallestRadius(const Shape& shape);
 /// Bounds of the posed shape, as tight as an axis-aligned box can be. @param pose of B in W
 Bounds boundsOf(const Shape& shape, const Pose& pose);
 /// The farthest point in a direction. @param direction [B], not zero @return [m, B] @pre !isInfinite(shape)

@@ -34,6 +34,10 @@ double radius(const HalfSpace&) {
 
 /// Only a plane that is exactly parallel to two axes bounds anything; it keeps bodies far above a floor out of its
 /// pairs.
+double innerRadius(const HalfSpace&) {
+    return std::numeric_limits<double>::infinity();
+}
+
 Bounds bounds(const HalfSpace& half_space, const Pose& pose) {
     Bounds result;
     const Vec3 n = pose.orientation * unitNormal(half_space);
@@ -50,7 +54,7 @@ Bounds bounds(const HalfSpace& half_space, const Pose& pose) {
 }
 
 constexpr ShapeEntry half_space_entry =
-    infiniteShapeEntry<HalfSpace, validate, massProperties, radius, bounds>("plane");
+    infiniteShapeEntry<HalfSpace, validate, massProperties, radius, innerRadius, bounds>("plane");
 
 }  // namespace
 

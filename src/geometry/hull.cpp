@@ -18,6 +18,10 @@ double radius(const ConvexHull& hull) {
     return hull.data().radius;
 }
 
+double innerRadius(const ConvexHull& hull) {
+    return hull.data().smallest;
+}
+
 Bounds bounds(const ConvexHull& hull, const Pose& pose) {
     const Mat3 axes = pose.orientation.toRotationMatrix();
     Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity());
@@ -41,7 +45,7 @@ Vec3 farthest(const ConvexHull& hull, const Vec3& direction) {
 }
 
 constexpr ShapeEntry hull_entry =
-    finiteShapeEntry<ConvexHull, validate, massProperties, radius, bounds, farthest>("hull");
+    finiteShapeEntry<ConvexHull, validate, massProperties, radius, innerRadius, bounds, farthest>("hull");
 
 }  // namespace
 

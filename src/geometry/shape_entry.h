@@ -13,28 +13,31 @@ struct ShapeEntry {
     void (*validate)(const Shape&);
     UnitMassProperties (*mass_properties)(const Shape&);
     double (*largest_radius)(const Shape&);
+    double (*smallest_radius)(const Shape&);
     Bounds (*bounds)(const Shape&, const Pose&);
     Vec3 (*support)(const Shape&, const Vec3&);  ///< null for infinite shapes
 };
 
 /// Adapts functions that take the shape's own type. @tparam S the alternative of Shape they belong to
 template <class S, void (*validate)(const S&), UnitMassProperties (*mass_properties)(const S&),
-          double (*largest_radius)(const S&), Bounds (*bounds)(const S&, const Pose&)>
+          double (*largest_radius)(const S&), double (*smallest_radius)(const S&),
+          Bounds (*bounds)(const S&, const Pose&)>
 constexpr ShapeEntry infiniteShapeEntry(std::string_view name) {
     return {name,
             [](const Shape& shape) { validate(*std::get_if<S>(&shape)); },
             [](const Shape& shape) { return mass_properties(*std::get_if<S>(&shape)); },
             [](const Shape& shape) { return largest_radius(*std::get_if<S>(&shape)); },
+            [](const Shape& shape) { return smallest_radius(*std::get_if<S>(&shape)); },
             [](const Shape& shape, const Pose& pose) { return bounds(*std::get_if<S>(&shape), pose); },
             nullptr};
 }
 
 /// The same for a shape that has an end in every direction.
 template <class S, void (*validate)(const S&), UnitMassProperties (*mass_properties)(const S&),
-          double (*largest_radius)(const S&), Bounds (*bounds)(const S&, const Pose&),
-          Vec3 (*support)(const S&, const Vec3&)>
+          double (*largest_radius)(const S&), double (*smallest_radius)(const S&),
+          Bounds (*bounds)(const S&, const Pose&), Vec3 (*support)(const S&, const Vec3&)>
 constexpr ShapeEntry finiteShapeEntry(std::string_view name) {
-    ShapeEntry entry = infiniteShapeEntry<S, validate, mass_properties, largest_radius, bounds>(name);
+    ShapeEntry entry = infiniteShapeEntry<S, validate, mass_properties, largest_radius, smallest_radius, bounds>(name);
     entry.support = [](const Shape& shape, const Vec3& direction) {
         return support(*std::get_if<S>(&shape), direction);
     };

@@ -20,6 +20,10 @@ double radius(const Sphere& sphere) {
     return sphere.radius;
 }
 
+double innerRadius(const Sphere& sphere) {
+    return sphere.radius;
+}
+
 Bounds bounds(const Sphere& sphere, const Pose& pose) {
     return {pose.position.array() - sphere.radius, pose.position.array() + sphere.radius};
 }
@@ -29,7 +33,7 @@ Vec3 farthest(const Sphere& sphere, const Vec3& direction) {
 }
 
 constexpr ShapeEntry sphere_entry =
-    finiteShapeEntry<Sphere, validate, massProperties, radius, bounds, farthest>("sphere");
+    finiteShapeEntry<Sphere, validate, massProperties, radius, innerRadius, bounds, farthest>("sphere");
 
 }  // namespace
 

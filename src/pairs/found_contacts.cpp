@@ -17,6 +17,8 @@ Contact contactOf(const BodyStorage& bodies, const MaterialTable& materials, con
             .point = found.point,
             .normal = found.normal,
             .distance = found.distance,
+            .allowed_overlap = found.allowed_overlap,
+            .allowed_closing = found.allowed_closing,
             .restitution = properties.restitution,
             .static_friction = properties.static_friction,
             .kinetic_friction = properties.kinetic_friction,

@@ -26,6 +26,8 @@ struct FoundContact {
     Vec3 point;                             ///< [m, W]
     Vec3 normal;                            ///< from B to A
     double distance;                        ///< [m]
+    double allowed_overlap = 0;             ///< Contact::allowed_overlap
+    double allowed_closing = 0;             ///< Contact::allowed_closing
     Vec3 last_impulse = Vec3::Zero();       ///< Contact::last_impulse
     Vec3 reference_impulse = Vec3::Zero();  ///< Contact::reference_impulse
 };

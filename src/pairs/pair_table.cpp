@@ -1,6 +1,7 @@
 #include "pairs/pair_table.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "math/arrays.h"
 #include "narrow_phase/narrow_phase.h"
@@ -30,22 +31,34 @@ bool mergeInto(std::span<FoundContact> others, const Vec3& point, const Vec3& no
 }
 
 /// Appends the contacts of one pair.
-void collidePair(const BodyStorage& bodies, const BodyPair& pair, double margin, Manifold& manifold,
-                 std::vector<FoundContact>& contacts) {
+void collidePair(const BodyStorage& bodies, const BodyPair& pair, const DetectionRange& range, const PairAhead& ahead,
+                 Manifold& manifold, std::vector<FoundContact>& contacts) {
+    const bool near = !ahead.isAny() || ahead.mayTouchNow();
+    const bool would_meet = !near && ahead.wouldMeet();
+    if (!near && !would_meet) return;
     const std::size_t first = contacts.size();
     const double size = std::min(bodies.r_max[pair.a], bodies.r_max[pair.b]);
+    const double allowed_overlap = range.overlapOf(bodies.r_min[pair.a], bodies.r_min[pair.b]);
+    const double margin = range.marginOf(bodies.r_min[pair.a], bodies.r_min[pair.b]);
+    bool touches = false;
     const auto add = [&](const Manifold& found) {
         // Within one manifold points are apart already.
         const std::size_t earlier = contacts.size() - first;
         for (std::size_t k = 0; k < found.size; ++k) {
             const auto& [point, distance] = found.points[k];
+            const double apart = distance - margin;
+            touches = touches || distance <= 0 || (apart <= 0 && !ahead.isAny());
+            if (apart > 0 && !ahead.closes(point, found.normal, apart)) continue;
             const auto others = std::span(contacts).subspan(first, earlier);
             if (mergeInto(others, point, found.normal, distance, size)) continue;
-            appendTightly(contacts, {pair.a, pair.b, point, found.normal, distance});
+            const double closing = apart > 0 ? apart / range.foresight.time : 0;
+            appendTightly(contacts, {pair.a, pair.b, point, found.normal, distance, allowed_overlap, closing});
         }
     };
     forEachManifold(bodies.shape[pair.a], bodies.shapePose(pair.a), bodies.shape[pair.b], bodies.shapePose(pair.b),
-                    margin, manifold, add);
+                    margin + ahead.way(), manifold, add);
+    const bool foreseen = !touches && contacts.size() > first;
+    if (foreseen && !would_meet && !ahead.wouldMeet()) contacts.resize(first);
 }
 
 /// Whether one of two bodies can move and no joint keeps them from touching. @param excluded sorted
@@ -110,8 +123,9 @@ void PairTable::adopt(std::span<const Contact> contacts) {
 /// Compares every body with where it was detected last.
 void PairTable::findUnmoved(const PairsInput& input) {
     const BodyStorage& bodies = input.bodies;
-    const bool known = known_ && input.margin == margin_;
-    margin_ = input.margin;
+    const bool known = known_ && input.range == range_;
+    if (!(input.range == range_)) ahead_.clear();
+    range_ = input.range;
     unmoved_.resize(bodies.slots());
     input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -125,13 +139,22 @@ void PairTable::findUnmoved(const PairsInput& input) {
 void PairTable::findBounds(const PairsInput& input) {
     const BodyStorage& bodies = input.bodies;
     bounds_.resize(bodies.slots());
+    ahead_.resize(bodies.slots());
     input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
-            if (bodies.kind[i] == BodyKind::hole || unmoved_[i] != 0) continue;
+            // What is awake may have been stopped or pushed since.
+            const bool same = range_.foresight.time == 0 || (bodies.asleep[i] != 0 && ahead_[i].reach == 0);
+            if (bodies.kind[i] == BodyKind::hole || (unmoved_[i] != 0 && same)) continue;
             Bounds grown = boundsOf(bodies.shape[i], bodies.shapePose(i));
-            grown.lower.array() -= margin_;
-            grown.upper.array() += margin_;
+            const double r_min = bodies.r_min[i];
+            const double margin = std::isfinite(r_min) ? range_.marginOf(r_min, r_min) : 0;
+            grown.lower.array() -= margin;
+            grown.upper.array() += margin;
             bounds_[i] = grown;
+            if (range_.foresight.time == 0) continue;
+            ahead_[i].now = grown;
+            lookAhead(bodies, range_.foresight, i, ahead_[i]);
+            bounds_[i] = ahead_[i].way;
         }
     });
 }
@@ -145,14 +168,17 @@ void PairTable::detectPairs(const PairsInput& input, std::span<const Contact> la
             continue;
         }
         const std::size_t first = part.count;
-        const bool known = (unmoved_[pair.a] & unmoved_[pair.b]) != 0 && pair.isTested();
+        const bool ahead = ahead_[pair.a].reach > 0 || ahead_[pair.b].reach > 0;
+        const bool known = (unmoved_[pair.a] & unmoved_[pair.b]) != 0 && pair.isTested() && !ahead && !pair.ahead;
+        pair.ahead = ahead;
         if (known) {
             if (pair.count > 0) part.add(pair.first, pair.count, true);
         } else {
             const auto before = pair.touches() ? last.subspan(pair.first, pair.count) : std::span<const Contact>();
             const std::size_t begin = part.found.size();
             if (bounds_[pair.a].overlaps(bounds_[pair.b])) {
-                collidePair(input.bodies, pair, margin_, manifold, part.found);
+                collidePair(input.bodies, pair, range_, {input.bodies, range_.foresight, pair, ahead_}, manifold,
+                            part.found);
                 inheritImpulses(input.bodies, before, std::span(part.found).subspan(begin));
             }
             pair.count = static_cast<std::uint32_t>(part.found.size() - begin);

@@ -9,6 +9,7 @@
 #include "body/contact.h"
 #include "body/material_table.h"
 #include "broad_phase/near_pairs.h"
+#include "pairs/foreseen.h"
 #include "pairs/found_contacts.h"
 #include "parallel/executor.h"
 
@@ -20,7 +21,7 @@ struct PairsInput {
     const MaterialTable& materials;
     BroadPhase& broad_phase;
     std::span<const BodyPair> excluded;  ///< pairs that joints keep from touching, sorted
-    double margin;                       ///< contacts are found up to this distance [m]
+    const DetectionRange& range;         ///< which contacts are found
     const Executor& executor;
 };
 
@@ -48,7 +49,8 @@ class PairTable {
     std::span<const ContactPair> pairs() const { return near_pairs_.pairs(); }
     /// Pairs that touched in the last step, of bodies that were removed since; sorted by (a, b).
     std::span<const BodyPair> removed() const { return removed_; }
-    /// [slots] grown by the margin [m, W]; empty before the first detection.
+    /// [slots] grown by the margin, and by the way ahead with speculative contacts [m, W]; empty before the first
+    /// detection.
     std::span<const Bounds> bounds() const { return bounds_; }
 
   private:
@@ -61,7 +63,8 @@ class PairTable {
     std::vector<BodyPair> removed_;
     std::vector<std::uint8_t> others_;   ///< [slots] 1 = its body was removed since the last step
     bool known_ = false;                 ///< the contacts are those of the last detection
-    double margin_ = 0;                  ///< of the last detection [m]
+    DetectionRange range_;               ///< of the last detection
+    std::vector<BodyAhead> ahead_;       ///< [slots]
     std::vector<std::uint8_t> unmoved_;  ///< [slots] 1 = contacts with others of these are known
     std::vector<Bounds> bounds_;         ///< [slots]
     std::vector<FoundContacts> parts_;   ///< [threads]

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -26,6 +27,15 @@ constexpr std::size_t large_contacts = 1024;
 
 /// Plain sweeps before the first direct step: they find out which contacts push and stick.
 constexpr std::int64_t sweeps_before_leap = 3;
+
+/// How much less a sweep changes than the one before it: what is assumed after the second sweep, since the first one
+/// also changes what no other contact has a part in, and the bounds within which later ones are believed. Sweeps that
+/// seem not to converge at all count as slow ones.
+constexpr double assumed_rate = 0.7, fastest_rate = 0.3, slowest_rate = 0.95;
+
+/// A sweep that still changes speeds by more than lets bodies into each other by this multiple of the overlap allowed
+/// is not the last one.
+constexpr double safe_multiple = 4;
 
 /// A direct step is taken back unless it leaves less than this part of the squared change of a sweep.
 constexpr double worthwhile = 0.25;
@@ -69,6 +79,32 @@ bool isMoving(const BatchView& batch, std::span<const Contact> contacts, const B
     return static_cast<double>(sliding) > settings.sliding_part * static_cast<double>(batch.contacts.size());
 }
 
+/// Estimates what all further sweeps would change, from how fast the changes become smaller: after a change c of a part
+/// r of the one before it, a geometric series leaves c·r/(1 − r). Deep piles, through which impulses have a long way,
+/// converge slowly and so are swept longer than shallow ones.
+class RemainingChange {
+  public:
+    /// @param gravity what gravity gives in a step; less than the same part of it is never of interest
+    explicit RemainingChange(double gravity) : gravity_(gravity) {}
+
+    /// To be called after every sweep. @param tolerance part that may be left; 0 = never
+    bool isWithin(double tolerance, double change) {
+        if (tolerance == 0) return false;
+        const double least = number_ == 1 ? assumed_rate : fastest_rate;
+        const double rate = last_ > 0 ? std::clamp(change / last_, least, slowest_rate) : slowest_rate;
+        const double left = number_ == 0 ? change : change * rate / (1 - rate);
+        last_ = change;
+        if (number_++ == 0) first_ = change;
+        return left <= tolerance * (number_ == 1 ? gravity_ : std::max(gravity_, first_));
+    }
+
+  private:
+    double gravity_;
+    double first_ = 0;
+    double last_ = 0;
+    int number_ = 0;  ///< of sweeps
+};
+
 /// Sweeps over the contacts, forth and back, with accumulated impulses that begin where the last step ended, and
 /// accelerates the sweeps by the nonsmooth nonlinear conjugate gradient method: the change of the impulses by a sweep
 /// is taken as the negative gradient. Sweeping back as well as forth keeps the contacts of a body alike, so that
@@ -90,10 +126,14 @@ class AcceleratedSweepsResolution final : public Resolution {
             local_.gatherBodies(batch, contacts, bodies);
         }
         const bool moving = isMoving(batch, contacts, bodies, settings);
-        const Sweeps sweeps{.limit = sweepLimit(batch.contacts.size(), moving, settings),
-                            .may_leap = !moving && !framed &&
-                                        local_.dynamic_bodies <= static_cast<std::size_t>(settings.direct_limit) &&
-                                        isChain(local_, settings.direct_pairs)};
+        const bool by_need = moving && settings.moving_tolerance > 0;
+        const Sweeps sweeps{
+            .limit = by_need ? settings.sweep_limit : sweepLimit(batch.contacts.size(), moving, settings),
+            .tolerance = by_need ? settings.moving_tolerance : 0,
+            .safe_speed = by_need ? safeSpeed(batch, contacts, bodies) : 0,
+            .may_leap = !moving && !framed &&
+                        local_.dynamic_bodies <= static_cast<std::size_t>(settings.direct_limit) &&
+                        isChain(local_, settings.direct_pairs)};
         const bool wide = !framed && !sweeps.may_leap && batch.contacts.size() >= wide_contacts;
         Sweeper& sweeper = *(wide ? static_cast<Sweeper*>(&wide_) : &plain_);
         const SweptBatch swept{local_, batch, contacts, bodies, settings, executor, framed};
@@ -114,6 +154,8 @@ class AcceleratedSweepsResolution final : public Resolution {
     /// How far a batch is swept.
     struct Sweeps {
         std::int64_t limit;  ///< of sweeps
+        double tolerance;    ///< part of the change that may be left; 0 = none
+        double safe_speed;   ///< with which nothing gets far into another body in a step [m/s]
         bool may_leap;       ///< direct steps are allowed; only with the plain sweeper
     };
 
@@ -123,6 +165,7 @@ class AcceleratedSweepsResolution final : public Resolution {
         bool may_leap = sweeps.may_leap;
         bool leapt = false;   // the impulses were changed by a direct step, which the next sweep judges
         double gradient = 0;  // squared change of the last sweep; 0 = there is no direction
+        RemainingChange remaining(sweeps.tolerance > 0 ? changeByGravity(swept) : 0);
         std::int64_t sweep = 1;
         for (;; ++sweep) {
             const bool bounds_changed = local_.joints.resolveBounds(local_.bodies, settings.resolution_threshold);
@@ -139,7 +182,9 @@ class AcceleratedSweepsResolution final : public Resolution {
             if (leapt) gradient = 0;
             leapt = false;
             may_leap = may_leap && !fails;
-            const bool steady = !(change.largest_speed > settings.sweep_tolerance) && !bounds_changed;
+            const bool enough = remaining.isWithin(sweeps.tolerance, std::sqrt(change.squared)) &&
+                                change.largest_speed <= sweeps.safe_speed;
+            const bool steady = (!(change.largest_speed > settings.sweep_tolerance) || enough) && !bounds_changed;
             if (steady || sweep >= sweeps.limit) break;
             if (fails) continue;
             if (may_leap && sweep >= sweeps_before_leap && leap()) {
@@ -157,6 +202,20 @@ class AcceleratedSweepsResolution final : public Resolution {
             gradient = change.squared;
         }
         return 2 * sweep * static_cast<std::int64_t>(sweeper.size());
+    }
+
+    /// The speed with which no body of the batch gets into another one by more than a few times what is allowed.
+    static double safeSpeed(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
+        double least = std::numeric_limits<double>::infinity();
+        for (const std::uint32_t i : batch.contacts) least = std::min(least, contacts[i].allowed_overlap);
+        return safe_multiple * least / bodies.time_step;
+    }
+
+    /// What gravity gives the bodies in a step, in the measure of SweepChange.
+    static double changeByGravity(const SweptBatch& swept) {
+        double mass = 0;
+        for (std::size_t i = 0; i < swept.local.dynamic_bodies; ++i) mass += 1 / swept.local.bodies[i].mass_inv;
+        return swept.bodies.fall.norm() * std::sqrt(mass);
     }
 
     /// Batches at rest are swept until they converge, large ones only as far as the budget goes.

@@ -32,7 +32,9 @@ double ContactLaw::separatingSpeed(const ResolutionSettings& settings, const Con
         return touchingSpeed(contact.restitution, settings.restitution_threshold,
                              {contact.forced, contact.fall, contact.climb}, closing);
     }
-    return closing > -settings.restitution_threshold ? 0 : -contact.restitution * closing;
+    const bool bounces =
+        contact.restitution > 0 && closing <= -settings.restitution_threshold && closing < -contact.allowed_closing;
+    return bounces ? -contact.restitution * closing : -contact.allowed_closing;
 }
 
 double ContactLaw::touchingSpeed(double restitution, double threshold, const Touch& touch, double closing) {

@@ -14,6 +14,7 @@ void countSupports(std::span<const BodyKind> kind, std::span<const Contact> cont
     if (!(magnitude > 0)) return;
     const Vec3 down = acceleration / magnitude;
     for (const Contact& contact : contacts) {
+        if (contact.isForeseen()) continue;
         // The normal points to A: A falls into the contact against it, B along it.
         const double into = contact.normal.dot(down);
         const BodyIndex fallen = into < 0 ? contact.a : contact.b;

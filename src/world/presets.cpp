@@ -11,7 +11,8 @@ namespace cairn {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> preset_names = {"performance", "accuracy", "thesis", "thesis_accuracy"};
+constexpr std::array<std::string_view, 5> preset_names = {"performance", "accuracy", "thesis", "thesis_accuracy",
+                                                          "robust"};
 
 /// Time steps per second that a preset's thresholds are given for.
 double ownSteps(Preset preset) {
@@ -63,6 +64,7 @@ void setAccuracy(Settings& s, double scale) {
 /// become.
 void setThesisAlgorithms(Settings& s) {
     s.detection.broad_phase = BroadPhaseKind::hash_grids;
+    s.detection.speculative_contacts = false;
     s.correction.correction = CorrectionKind::propagated;
     s.correction.remaining_penetration = 0.7;
     s.correction.spread_levels = 0;
@@ -72,6 +74,7 @@ void setThesisAlgorithms(Settings& s) {
     s.resolution.restitution_law = RestitutionLaw::newton;
     s.resolution.restitution_speed = RestitutionSpeed::closing;
     s.resolution.impacts = Impacts::of_resolution;
+    s.resolution.moving_tolerance = 0;
     s.resolution.shock_iterations = 6;
     s.resolution.queue_switch = 64;
     s.resolution.wake_speed = 0;
@@ -79,6 +82,21 @@ void setThesisAlgorithms(Settings& s) {
     s.sleep.motion_limit = 3;
     s.integration.gyroscopic = true;
     s.integration.exact_flight = false;
+}
+
+/// Bodies are kept from flying into each other, what overlaps nevertheless is moved and turned apart by inverse masses,
+/// lengths follow from the sizes of bodies, and the effort from what is left to do.
+void setRobust(Settings& s, double scale) {
+    setPerformance(s, scale);
+    s.detection.contact_margin = 0;
+    s.detection.speculative_contacts = true;
+    s.correction.correction = CorrectionKind::position_sweeps;
+    s.correction.penetration_threshold = 0;
+    s.correction.correction_rounds = 1;
+    s.resolution.moving_tolerance = 0.4;
+    s.resolution.sweep_limit = 100;
+    s.resolution.visit_limit = 0;
+    s.integration.exact_flight = true;
 }
 
 /// "High performance solver settings". @source thesis §5.1
@@ -150,6 +168,9 @@ Settings Settings::preset(Preset preset, double steps_per_second, double gravity
             break;
         case Preset::thesis_accuracy:
             setThesisAccuracy(s, scale);
+            break;
+        case Preset::robust:
+            setRobust(s, scale);
             break;
     }
     sweepLongerSteps(s.resolution, std::max(1.0, own_steps / s.steps_per_second));

@@ -93,12 +93,20 @@ const std::vector<SettingField>& settingTable() {
         stepsPerSecond(),
         choice<&S::detection, &D::broad_phase, broad_phase_names>("broad_phase", "detection",
                                                                   "how pairs of near bodies are found"),
-        plain<&S::detection, &D::contact_margin>("contact_margin", "detection", "m", 0, 1,
-                                                 "contacts are reported up to this distance before touching"),
+        plain<&S::detection, &D::contact_margin>(
+            "contact_margin", "detection", "m", 0, 1,
+            "contacts are reported up to this distance before touching; 0 without penetration_threshold = a "
+            "sixteenth of the overlap allowed"),
+        plain<&S::detection, &D::speculative_contacts>("speculative_contacts", "detection", "", 0, 1,
+                                                       "finds contacts of bodies that would meet within the step, too"),
         choice<&S::correction, &C::correction, correction_names>("correction", "correction",
                                                                  "algorithm of the penetration correction"),
-        plain<&S::correction, &C::penetration_threshold>("penetration_threshold", "correction", "m", above_zero, 1,
-                                                         "overlap above which a contact is corrected"),
+        plain<&S::correction, &C::penetration_threshold>(
+            "penetration_threshold", "correction", "m", 0, 1,
+            "overlap above which a contact is corrected; 0 = allowed_overlap"),
+        plain<&S::correction, &C::allowed_overlap>(
+            "allowed_overlap", "correction", "", 1e-6, 0.1,
+            "the same as part of the smaller body's smallest extent, where penetration_threshold is 0"),
         plain<&S::correction, &C::remaining_penetration>("remaining_penetration", "correction", "", 0.001, 0.999,
                                                          "part of the threshold that a correction leaves (2.5.4)"),
         plain<&S::correction, &C::spread_levels>(
@@ -138,6 +146,9 @@ const std::vector<SettingField>& settingTable() {
         plain<&S::resolution, &R::moving_sweep_limit>(
             "moving_sweep_limit", "resolution", "", 1, 1e6,
             "the same for batches where a contact closes faster than restitution_threshold"),
+        plain<&S::resolution, &R::moving_tolerance>(
+            "moving_tolerance", "resolution", "", 0, 1,
+            "batches that move are swept until about this part of the change is left; 0 = moving_sweep_limit sweeps"),
         plain<&S::resolution, &R::small_sweep_part>(
             "small_sweep_part", "resolution", "", 0, 1,
             "part of moving_sweep_limit that is for batches of fewer than 1024 contacts, at least one sweep"),
@@ -249,6 +260,11 @@ void requireTogether(const Settings& s, double gravity) {
         throw InputError(
             "restitution_law 'energetic' is a law of single impacts and cannot hold with impacts 'simultaneous'; set "
             "impacts to 'sequential' or restitution_law to 'newton'");
+    }
+    if (s.correction.correction == CorrectionKind::propagated && s.correction.penetration_threshold == 0) {
+        throw InputError(
+            "penetration_threshold 0 lets lengths follow from the sizes of bodies, which correction 'propagated' does "
+            "not; give a threshold in metres, or set correction to 'position_sweeps'");
     }
     const double speed = gravity * s.timeStep();
     if (!s.sleep.sleeping || gravity == 0) return;

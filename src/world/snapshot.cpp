@@ -116,7 +116,7 @@ void checkBody(const ByteReader& in, const BodyStorage& b, BodyIndex i, std::siz
     const bool heavy =
         b.mass[i] > 0 && std::isfinite(b.mass[i]) && b.inertia_B[i].allFinite() && (b.inertia_B[i].array() > 0).all();
     if (!heavy) in.refuse(fmt::format("body {} without a mass", i));
-    if (!(b.r_max[i] > 0)) in.refuse(fmt::format("body {} without a size", i));
+    if (!(b.r_max[i] > 0 && b.r_min[i] > 0)) in.refuse(fmt::format("body {} without a size", i));
 }
 
 void saveBodies(const BodyStorage& b, ByteWriter& out) {

@@ -66,10 +66,22 @@ WarmStart warmStart(const WorldState& world) {
     return world.settings.resolution.resolution == ResolutionKind::accelerated_sweeps ? WarmStart::on : WarmStart::off;
 }
 
+/// What the detection looks for: how far ahead depends on who takes the contacts.
+DetectionRange rangeOf(const WorldState& world) {
+    const Settings& s = world.settings;
+    DetectionRange range{s.detection.contact_margin, s.correction.penetration_threshold, s.correction.allowed_overlap};
+    const bool foresees = s.detection.speculative_contacts &&
+                          s.resolution.resolution == ResolutionKind::accelerated_sweeps &&
+                          s.resolution.restitution_speed == RestitutionSpeed::closing;
+    if (foresees) range.foresight = {s.timeStep(), s.timeStep() * (world.gravity + world.global_acceleration)};
+    return range;
+}
+
 void detect(WorldState& world) {
-    world.data.pairs.detect({world.bodies, world.materials, *world.broad_phase, world.data.excluded,
-                             world.settings.detection.contact_margin, world.executor},
-                            world.data.contacts);
+    const DetectionRange range = rangeOf(world);
+    world.data.pairs.detect(
+        {world.bodies, world.materials, *world.broad_phase, world.data.excluded, range, world.executor},
+        world.data.contacts);
 }
 
 void buildBatchesStage(WorldState& world) {
@@ -156,6 +168,7 @@ void resolveStage(WorldState& world) {
         world.trace.shock_stage.assign(bodies.size(), -1);
         bodies.shock_stage = world.trace.shock_stage;
     }
+    bodies.time_step = world.settings.timeStep();
     const GravityDampingSettings& damping = world.settings.gravity_damping;
     bodies.fall = (damping.damping_threshold > 0 ? 1 - damping.damping : 1.0) * world.settings.timeStep() *
                   (world.gravity + world.global_acceleration);

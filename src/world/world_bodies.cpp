@@ -101,6 +101,7 @@ void setMass(BodyStorage& bodies, BodyIndex i, const BodyDescription& d, double 
                 fmt::format("a {} has no centre of mass and no inertia; leave them out", shapeName(d.shape)));
         }
         bodies.r_max[i] = largestRadius(d.shape);
+        bodies.r_min[i] = smallestRadius(d.shape);
         return;
     }
     const BodyMass found = bodyMass(d.shape, density, {d.mass, d.centre_of_mass, d.inertia});
@@ -119,6 +120,7 @@ void setMass(BodyStorage& bodies, BodyIndex i, const BodyDescription& d, double 
     bodies.R_BS[i] = shape.orientation;
     const Vec3 moved = found.body_in_shape.position - unitMassProperties(bodies.shape[i]).centre;
     bodies.r_max[i] = largestRadius(bodies.shape[i]) + moved.norm();
+    bodies.r_min[i] = smallestRadius(bodies.shape[i]);
 }
 
 /// The shape as the world keeps it: parts of compounds with unit quaternions.

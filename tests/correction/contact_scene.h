@@ -29,6 +29,7 @@ struct ContactScene : BodyStorage {
         position[i] = at;
         if (new_kind == BodyKind::dynamic) {
             mass_inv[i] = 1;
+            inertiaInv_B[i].setOnes();
             inertiaInv_W[i].setIdentity();
         }
         return i;
@@ -45,6 +46,7 @@ struct ContactScene : BodyStorage {
         contact.normal = x < y ? to_x : Vec3(-to_x);
         contact.point = 0.5 * (position[x] + position[y]);
         contact.distance = distance;
+        contact.allowed_overlap = settings.penetration_threshold;
         contacts.push_back(contact);
         return static_cast<std::uint32_t>(contacts.size() - 1);
     }

@@ -90,6 +90,7 @@ TEST(Geometry, OnlyTheHalfSpaceIsInfinite) {
     EXPECT_TRUE(isInfinite(HalfSpace{}));
     EXPECT_EQ(unitMassProperties(HalfSpace{}).volume, infinity);
     EXPECT_EQ(largestRadius(HalfSpace{}), infinity);
+    EXPECT_EQ(smallestRadius(HalfSpace{}), infinity);
 }
 
 TEST(Geometry, VolumesAndInertiasHaveTheirClosedForms) {
@@ -240,6 +241,21 @@ TEST(Geometry, TheSmallestAndLargestBodiesHaveAnInvertibleInertia) {
             EXPECT_GT(properties.inertia_volume.cwiseInverse().minCoeff(), 0);
         }
     }
+}
+
+TEST(SmallestRadius, IsHalfOfTheSmallestExtent) {
+    EXPECT_EQ(smallestRadius(Sphere{0.3}), 0.3);
+    EXPECT_EQ(smallestRadius(Box{Vec3(1, 0.2, 3)}), 0.1);
+    EXPECT_EQ(smallestRadius(Capsule{0.25, 4}), 0.25);
+    EXPECT_EQ(smallestRadius(Cylinder{0.5, 0.4}), 0.2);
+    EXPECT_EQ(smallestRadius(Cylinder{0.5, 4}), 0.5);
+    std::vector<Vec3> corners;
+    for (int i = 0; i < 8; ++i) corners.emplace_back(i & 1 ? 1 : -1, i & 2 ? 0.2 : -0.2, i & 4 ? 3 : -3);
+    EXPECT_NEAR(smallestRadius(ConvexHull(corners)), 0.2, 1e-15);
+    Compound both;
+    both.parts.push_back({Box{Vec3(1, 1, 1)}, {}, {}, {}});
+    both.parts.push_back({Sphere{0.1}, {Vec3(1, 0, 0), Quat::Identity()}, {}, {}});
+    EXPECT_EQ(smallestRadius(both), 0.1);
 }
 
 }  // namespace

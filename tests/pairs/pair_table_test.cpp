@@ -14,7 +14,7 @@ struct Row {
     MaterialTable materials;
     std::unique_ptr<BroadPhase> broad_phase = makeBroadPhase(BroadPhaseKind::hash_grids);
     std::vector<BodyPair> excluded;
-    double margin = 0;
+    DetectionRange range{.threshold = 1};
     Executor executor;
     PairTable pairs;
     std::vector<Contact> contacts;
@@ -33,7 +33,7 @@ struct Row {
         return b;
     }
 
-    PairsInput input() { return {bodies, materials, *broad_phase, excluded, margin, executor}; }
+    PairsInput input() { return {bodies, materials, *broad_phase, excluded, range, executor}; }
     void detect() { pairs.detect(input(), contacts); }
     void beginStep(std::span<const std::uint32_t> generation) { pairs.beginStep(bodies, generation, executor); }
     void moveTo(BodyIndex i, const Vec3& position) { bodies.position[i] = position; }
@@ -86,7 +86,7 @@ TEST(PairTable, AnotherMarginAndForgottenContactsFindAllAnew) {
     Row row(3);
     row.detect();
     row.mark();
-    row.margin = 0.01;
+    row.range.margin = 0.01;
     row.detect();
     EXPECT_FALSE(row.isMarked(0));
     row.mark();

@@ -132,7 +132,7 @@ TEST(Fields, BadValuesAreRefusedWithWhatIsAllowed) {
     EXPECT_NE(refusal("nonsense", "1").find("steps_per_second"), std::string::npos);
     EXPECT_NE(refusal("threads", "0").find("within 1 and 1024"), std::string::npos);
     EXPECT_NE(refusal("threads", "1.5").find("whole number"), std::string::npos);
-    EXPECT_NE(refusal("penetration_threshold", "0").find("above 0"), std::string::npos);
+    EXPECT_NE(refusal("allowed_overlap", "0").find("1e-06"), std::string::npos) << refusal("allowed_overlap", "0");
     EXPECT_NE(refusal("penetration_threshold", "nan"), "");
     EXPECT_NE(refusal("penetration_threshold", "inf"), "");
     EXPECT_NE(refusal("penetration_threshold", "1e-3m"), "");

@@ -1,0 +1,26 @@
+/// @file Whether two moving shapes would overlap within a time.
+#pragma once
+
+#include "narrow_phase/narrow_phase.h"
+
+namespace cairn {
+
+/// A shape that moves and turns uniformly.
+struct MovingShape {
+    const Shape& shape;
+    Pose pose;              ///< of its frame at the beginning [m, W]
+    Vec3 centre;            ///< about which it turns, at the beginning [m, W]
+    Vec3 v = Vec3::Zero();  ///< of the centre [m/s, W]
+    Vec3 w = Vec3::Zero();  ///< [rad/s, W]
+    double turning = 0;     ///< largest speed of a surface point about the centre that changes where the shape is [m/s]
+
+    Pose poseAfter(double time) const;
+};
+
+/// Whether two shapes, if nothing stopped them, would overlap by more than a depth at some time within a time step.
+/// Conservative advancement: no time is passed over in which they could; what is not decided after a number of rounds
+/// counts as overlapping. @param time of the step [s] @param depth [m], ≥ 0
+/// @source Mirtich: Impulse-based dynamic simulation of rigid body systems, Berkeley 1996, §2.3
+bool overlapWithin(const MovingShape& a, const MovingShape& b, double time, double depth);
+
+}  // namespace cairn

@@ -1,0 +1,98 @@
+#include "pairs/foreseen.h"
+
+#include <algorithm>
+
+#include "math/rotation.h"
+#include "narrow_phase/approach.h"
+
+namespace cairn {
+
+namespace {
+
+/// A body that moves by less than this part of its inner radius in a time step cannot get far into another one.
+constexpr double least_way = 0.01;
+
+/// Bodies that would not overlap by more than this part of the smaller one's inner radius pass each other by: one that
+/// slides over a seam between two others is not to be stopped by the edge of the next.
+constexpr double least_depth = 0.03;
+
+MovingShape movingShape(const BodyStorage& bodies, BodyIndex i, const BodyAhead* ahead) {
+    MovingShape shape{bodies.shape[i], bodies.shapePose(i), bodies.position[i]};
+    if (ahead == nullptr) return shape;
+    shape.v = bodies.v[i];
+    shape.w = bodies.w[i];
+    shape.turning = ahead->turning;
+    return shape;
+}
+
+}  // namespace
+
+void lookAhead(const BodyStorage& bodies, const Foresight& foresight, BodyIndex i, BodyAhead& ahead) {
+    ahead.way = ahead.now;
+    ahead.v = bodies.v[i];
+    ahead.turning = 0;
+    ahead.reach = 0;
+    if (foresight.time == 0 || bodies.asleep[i] != 0) return;
+    if (bodies.kind[i] == BodyKind::dynamic) ahead.v += foresight.fall;
+    const bool ball = std::holds_alternative<Sphere>(bodies.shape[i]) && bodies.p_BS[i].isZero(0);
+    if (!ball) ahead.turning = bodies.w[i].norm() * bodies.r_max[i];
+    const double reach = foresight.time * (ahead.v.norm() + ahead.turning);
+    if (!(reach > least_way * bodies.r_min[i])) return;
+    ahead.reach = reach;
+    const Vec3 way = ahead.v * foresight.time;
+    const double turned = ahead.turning * foresight.time;
+    ahead.way = ahead.now.grown(turned);
+    ahead.way.lower += way.cwiseMin(0);
+    ahead.way.upper += way.cwiseMax(0);
+    const Quat turn = ball ? Quat::Identity() : fromRotationVector(bodies.w[i] * foresight.time);
+    const Pose now = bodies.shapePose(i);
+    // Without what gravity adds, which whatever carries a body takes away again.
+    const Vec3 centre = bodies.position[i] + bodies.v[i] * foresight.time;
+    ahead.end = {centre + turn * (now.position - bodies.position[i]), turn * now.orientation};
+}
+
+bool PairAhead::wouldMeet() const {
+    const double depth = least_depth * std::min(bodies_.r_min[pair_.a], bodies_.r_min[pair_.b]);
+    const bool both = a_.reach > 0 && b_.reach > 0;
+    if (both && a_.way.overlaps(b_.way) && meetsWith(&a_, &b_, depth)) return true;
+    if (a_.reach > 0 && a_.way.overlaps(b_.now) && meetsWith(&a_, nullptr, depth)) return true;
+    return b_.reach > 0 && b_.way.overlaps(a_.now) && meetsWith(nullptr, &b_, depth);
+}
+
+/// @param a, b how the bodies move; null = it stays
+bool PairAhead::meetsWith(const BodyAhead* a, const BodyAhead* b, double depth) const {
+    const Vec3 together = (a != nullptr ? a->v : Vec3(Vec3::Zero())) - (b != nullptr ? b->v : Vec3(Vec3::Zero()));
+    const double turning = (a != nullptr ? a->turning : 0) + (b != nullptr ? b->turning : 0);
+    const double way = foresight_.time * (together.norm() + turning);
+    // Bodies that come closer by less than this either overlap at the end or only graze each other.
+    if (way > std::min(bodies_.r_min[pair_.a], bodies_.r_min[pair_.b])) {
+        return overlapWithin(movingShape(bodies_, pair_.a, a), movingShape(bodies_, pair_.b, b), foresight_.time,
+                             depth);
+    }
+    bool deep = false;
+    Manifold manifold;
+    const auto look = [&](const Manifold& found) {
+        for (std::size_t i = 0; i < found.size; ++i) deep = deep || found.points[i].distance < -depth;
+    };
+    forEachManifold(bodies_.shape[pair_.a], a != nullptr ? a->end : bodies_.shapePose(pair_.a), bodies_.shape[pair_.b],
+                    b != nullptr ? b->end : bodies_.shapePose(pair_.b), 0, manifold, look);
+    return deep;
+}
+
+double PairAhead::way() const {
+    if (!isAny()) return 0;
+    const double together = foresight_.time * ((a_.v - b_.v).norm() + a_.turning + b_.turning);
+    return std::max({a_.reach, b_.reach, together});
+}
+
+bool PairAhead::closes(const Vec3& point, const Vec3& normal, double distance) const {
+    const auto along = [&](const BodyAhead& ahead, BodyIndex i) {
+        const Vec3 lever = point - bodies_.position[i];
+        return normal.dot(ahead.v + bodies_.w[i].cross(lever));
+    };
+    const double of_a = -along(a_, pair_.a);
+    const double of_b = along(b_, pair_.b);
+    return distance < foresight_.time * std::max({of_a + of_b, of_a, of_b});
+}
+
+}  // namespace cairn

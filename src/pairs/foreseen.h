@@ -1,0 +1,82 @@
+/// @file Foreseen (speculative) contacts: those of bodies that are apart and would meet before the next detection.
+/// @source Catto: Continuous collision, GDC 2013 (the idea); which contacts are foreseen and which are not is our own
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "body/body_storage.h"
+#include "broad_phase/broad_phase.h"
+
+namespace cairn {
+
+/// How far ahead a detection looks.
+struct Foresight {
+    double time = 0;           ///< of the next time step [s]; 0 = only what touches now is found
+    Vec3 fall = Vec3::Zero();  ///< what gravity adds to a velocity before then [m/s, W]
+
+    bool operator==(const Foresight&) const = default;
+};
+
+/// What a detection reports.
+struct DetectionRange {
+    double margin = 0;           ///< contacts are found up to this distance [m]; 0 without a threshold = a part of it
+    double threshold = 0;        ///< overlap that the correction leaves alone [m]; 0 = a part of the smaller body
+    double allowed_overlap = 0;  ///< that part, of the smaller body's smallest extent
+    Foresight foresight{};
+
+    bool operator==(const DetectionRange&) const = default;
+    /// For two bodies with these inner radii [m], of which one is finite.
+    double overlapOf(double r_min_a, double r_min_b) const {
+        return threshold > 0 ? threshold : allowed_overlap * 2 * std::min(r_min_a, r_min_b);
+    }
+    double marginOf(double r_min_a, double r_min_b) const {
+        return margin > 0 || threshold > 0 ? margin : overlapOf(r_min_a, r_min_b) * margin_part;
+    }
+    static constexpr double margin_part = 1.0 / 16;
+};
+
+/// A body now and at the end of the next time step, if nothing stops it.
+struct BodyAhead {
+    Bounds now;             ///< grown by the contact margin [m, W]
+    Bounds way;             ///< of all places from now until then [m, W]
+    Pose end;               ///< of the shape's frame then, without what gravity adds [m, W]
+    Vec3 v = Vec3::Zero();  ///< with what gravity adds [m/s, W]
+    double turning = 0;     ///< largest speed of a surface point about the centre, 0 for a ball [m/s]
+    double reach = 0;       ///< largest way of a surface point [m]; 0 if it is no more than a small part of the body
+};
+
+/// Fills in all but the bounds of now. @pre ahead.now
+void lookAhead(const BodyStorage& bodies, const Foresight& foresight, BodyIndex i, BodyAhead& ahead);
+
+/// Which contacts of one pair a detection reports.
+class PairAhead {
+  public:
+    PairAhead(const BodyStorage& bodies, const Foresight& foresight, const BodyPair& pair,
+              std::span<const BodyAhead> ahead)
+        : bodies_(bodies), foresight_(foresight), pair_(pair), a_(ahead[pair.a]), b_(ahead[pair.b]) {}
+
+    /// Whether one of them moves far enough to look ahead.
+    bool isAny() const { return a_.reach > 0 || b_.reach > 0; }
+    /// Whether the bounds overlap now. @pre isAny()
+    bool mayTouchNow() const { return a_.now.overlaps(b_.now); }
+    /// Whether two bodies that do not touch would meet before the next detection, rather than pass each other by: with
+    /// the motion of both, or of one of them alone, as another body may stop the other.
+    bool wouldMeet() const;
+    /// How far they can come closer until then, likewise [m].
+    double way() const;
+    /// Whether they close fast enough, likewise, to touch in a point that is apart now.
+    /// @param normal from B to A @param distance [m]
+    bool closes(const Vec3& point, const Vec3& normal, double distance) const;
+
+  private:
+    bool meetsWith(const BodyAhead* a, const BodyAhead* b, double depth) const;
+
+    const BodyStorage& bodies_;
+    const Foresight& foresight_;
+    const BodyPair& pair_;
+    const BodyAhead& a_;
+    const BodyAhead& b_;
+};
+
+}  // namespace cairn

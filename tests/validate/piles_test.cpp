@@ -1,0 +1,43 @@
+/// Piles of the preset robust come to rest: deep ones, at few steps per second, of tiny bodies and of awkward shapes.
+#include "validate/piles.h"
+
+#include <gtest/gtest.h>
+
+namespace cairn::validation {
+namespace {
+
+/// Energy never rises, nobody is lost, 98 % sleep in time, and nothing stays in each other.
+void expectRest(const Pile& pile) {
+    const PileResult result = runPile(
+        pile, [](Settings&) {}, [](const World&) {});
+    EXPECT_LE(result.gain, 1e-3) << nameOf(pile);
+    EXPECT_EQ(result.lost, 0) << nameOf(pile);
+    EXPECT_GE(result.rest_time, 0) << nameOf(pile);
+    EXPECT_LE(result.rest_overlap, 0.02) << nameOf(pile);
+}
+
+TEST(Piles, OfBoxesComeToRest) {
+    expectRest({.shape = PileShape::box, .count = 400});
+    expectRest({.shape = PileShape::box, .count = 200, .depth = 30});
+}
+
+TEST(Piles, ComeToRestAtFewStepsPerSecond) {
+    expectRest({.shape = PileShape::box, .count = 400, .step = 0.25});
+}
+
+TEST(Piles, OfConcaveBodiesComeToRest) {
+    expectRest({.shape = PileShape::compound, .count = 200});
+}
+
+TEST(Piles, OfTinyAndOfLargeBodiesComeToRest) {
+    expectRest({.shape = PileShape::hull, .count = 200, .extent = 1e-3});
+    expectRest({.shape = PileShape::hull, .count = 200, .extent = 10});
+}
+
+TEST(Piles, AreNamedByTheirFactors) {
+    EXPECT_EQ(nameOf(Pile{.shape = PileShape::rod, .graded = true, .impact = 10}),
+              "rod20_n200_deep10_v10_s1_d0.1_mu0.2_e0");
+}
+
+}  // namespace
+}  // namespace cairn::validation

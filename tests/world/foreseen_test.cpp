@@ -1,0 +1,132 @@
+/// Which contacts of bodies that are apart are foreseen, and which are not.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "cairn/world.h"
+
+namespace cairn {
+namespace {
+
+constexpr double steps = 60;
+
+Settings foreseeing() {
+    Settings settings = Settings::preset(Preset::robust, steps);
+    settings.sleep.sleeping = false;
+    return settings;
+}
+
+BodyDescription at(const Shape& shape, const Vec3& position, const Vec3& velocity = Vec3::Zero()) {
+    BodyDescription d;
+    d.shape = shape;
+    d.pose.position = position;
+    d.linear_velocity = velocity;
+    return d;
+}
+
+BodyDescription fixedAt(const Shape& shape, const Vec3& position) {
+    BodyDescription d = at(shape, position);
+    d.fixed = true;
+    return d;
+}
+
+struct Scene {
+    World world{foreseeing()};
+    Scene() {
+        world.addMaterial({"stone", 2500});
+        world.setGravity(Vec3(0, 0, -9.81));
+        world.setDefaultPairProperties({.restitution = 0});
+    }
+    double deepest() const {
+        double deepest = 0;
+        for (const ContactInfo& c : world.contacts()) deepest = std::min(deepest, c.distance);
+        return deepest;
+    }
+};
+
+TEST(ForeseenContacts, AFallingBoxStopsWhereItTouches) {
+    Scene scene;
+    scene.world.addBody(fixedAt(HalfSpace{}, Vec3::Zero()));
+    const BodyId box = scene.world.addBody(at(Box{Vec3(0.1, 0.1, 0.1)}, Vec3(0, 0, 1.03), Vec3(0, 0, -7)));
+    for (int i = 0; i < 60; ++i) {
+        scene.world.step();
+        ASSERT_GT(scene.deepest(), -0.0145 * 0.1) << i;
+    }
+    EXPECT_NEAR(scene.world.pose(box).position.z(), 0.05, 0.0145 * 0.1);
+}
+
+TEST(ForeseenContacts, AThinPlateDoesNotFlyThroughAnother) {
+    Scene scene;
+    scene.world.setGravity(Vec3::Zero());
+    const BodyId wall = scene.world.addBody(fixedAt(Box{Vec3(0.02, 2, 2)}, Vec3(5, 0, 0)));
+    const BodyId bullet = scene.world.addBody(at(Box{Vec3(0.01, 0.3, 0.3)}, Vec3(-8, 0, 0), Vec3(400, 0, 0)));
+    for (int i = 0; i < 10; ++i) scene.world.step();
+    EXPECT_TRUE(scene.world.contains(wall));
+    EXPECT_NEAR(scene.world.pose(bullet).position.x(), 5 - 0.01 - 0.005, 1e-3);
+}
+
+TEST(ForeseenContacts, WhatFollowsSeesTheOneThatStops) {
+    Scene scene;
+    Settings exact = foreseeing();
+    exact.resolution.moving_tolerance = 1e-3;
+    scene.world.setSettings(exact);
+    scene.world.setGravity(Vec3::Zero());
+    scene.world.addBody(fixedAt(Box{Vec3(1, 1, 1)}, Vec3(1.5, 0, 0)));
+    std::vector<BodyId> row;
+    for (int i = 0; i < 5; ++i) {
+        row.push_back(scene.world.addBody(at(Sphere{0.05}, Vec3(0.8 - 0.12 * i, 0, 0), Vec3(9, 0, 0))));
+    }
+    for (int i = 0; i < 60; ++i) {
+        scene.world.step();
+        ASSERT_GT(scene.deepest(), -2 * 0.0145 * 0.1) << i;
+    }
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        EXPECT_NEAR(scene.world.pose(row[i]).position.x(), 0.95 - 0.1 * static_cast<double>(i), 0.02) << i;
+    }
+}
+
+TEST(ForeseenContacts, BodiesThatPassByDoNotMeet) {
+    Scene scene;
+    scene.world.setGravity(Vec3::Zero());
+    scene.world.addBody(fixedAt(Box{Vec3(1, 1, 1)}, Vec3(0, 0, 0)));
+    // Towards the corner of the box, and just past it.
+    const Vec3 velocity(30, 0, 0);
+    const BodyId ball = scene.world.addBody(at(Sphere{0.1}, Vec3(-3, 0.602, 0), velocity));
+    const BodyId box = scene.world.addBody(at(Box{Vec3(0.2, 0.2, 0.2)}, Vec3(-3, -0.602, 0), velocity));
+    for (int i = 0; i < 20; ++i) scene.world.step();
+    EXPECT_EQ(scene.world.linearVelocity(ball), velocity);
+    EXPECT_EQ(scene.world.linearVelocity(box), velocity);
+}
+
+TEST(ForeseenContacts, ABoxSlidesOverSeamsAsOverOnePiece) {
+    const auto wayOver = [](int pieces) {
+        Scene scene;
+        scene.world.setDefaultPairProperties({.restitution = 0, .static_friction = 0.1, .kinetic_friction = 0.1});
+        const double length = 8.0 / pieces;
+        for (int i = 0; i < pieces; ++i) {
+            scene.world.addBody(fixedAt(Box{Vec3(length, 2, 1)}, Vec3((i + 0.5) * length - 1, 0, -0.5)));
+        }
+        const BodyId box = scene.world.addBody(at(Box{Vec3(0.2, 0.2, 0.1)}, Vec3(0, 0, 0.05), Vec3(3, 0, 0)));
+        for (int i = 0; i < 150; ++i) scene.world.step();
+        return scene.world.pose(box).position.x();
+    };
+    EXPECT_NEAR(wayOver(16), wayOver(1), 0.03 * wayOver(1));
+}
+
+TEST(ForeseenContacts, AWorldThatIsRestoredGoesOnBitByBit) {
+    Scene scene;
+    scene.world.addBody(fixedAt(HalfSpace{}, Vec3::Zero()));
+    for (int i = 0; i < 12; ++i) {
+        scene.world.addBody(
+            at(Box{Vec3(0.1, 0.12, 0.08)}, Vec3(0.02 * (i % 3), 0.015 * (i % 4), 0.2 + 0.16 * i), Vec3(0, 0, -6)));
+    }
+    for (int i = 0; i < 60; ++i) {
+        World copy = World::restore(scene.world.save());
+        scene.world.step();
+        copy.step();
+        ASSERT_EQ(copy.stateHash(), scene.world.stateHash()) << i;
+    }
+}
+
+}  // namespace
+}  // namespace cairn
