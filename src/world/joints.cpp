@@ -9,10 +9,6 @@ namespace cairn {
 
 namespace {
 
-bool areBefore(const BodyPair& x, const BodyPair& y) {
-    return x.a < y.a || (x.a == y.a && x.b < y.b);
-}
-
 /// Pairs that joints keep from touching.
 void listExcluded(const WorldState& world, std::vector<BodyPair>& excluded) {
     excluded.clear();
@@ -20,7 +16,7 @@ void listExcluded(const WorldState& world, std::vector<BodyPair>& excluded) {
         if (!joint.present || joint.collide || joint.b == Joint::world) continue;
         excluded.push_back({std::min(joint.a, joint.b), std::max(joint.a, joint.b)});
     }
-    std::sort(excluded.begin(), excluded.end(), areBefore);
+    std::ranges::sort(excluded);
 }
 
 /// A motor that runs keeps its bodies awake, however slowly it moves them.
