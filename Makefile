@@ -6,7 +6,7 @@
 #   make golden    list which golden runs changed; make golden UPDATE=1 renews tests/golden/hashes.json
 #   make sanitize  run the tests under the address, undefined-behaviour and thread sanitizers
 #   make coverage  measure which lines of detection and response the tests run
-#   make fuzz SECONDS=60   fuzz the readers, the narrow phase and the world, each target for so long
+#   make fuzz SECONDS=60   fuzz the readers, the narrow phase, questions and the world, each target for so long
 #   make soak SIMULATED=3600 WALL=3600   pour a mixed pile for so many seconds: nothing may leak, slow down or creep
 #   make thesis    repeat every benchmark of the thesis: report/index.html
 #   make validate  measure the physics against closed forms and experiments: validation/index.html

@@ -4,6 +4,7 @@
 #include "cairn/checkpoint.h"
 #include "cairn/events.h"
 #include "cairn/material.h"
+#include "cairn/query.h"
 #include "cairn/recording.h"
 #include "cairn/scene.h"
 #include "cairn/settings.h"

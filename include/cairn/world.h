@@ -12,6 +12,7 @@
 #include "cairn/events.h"
 #include "cairn/joint.h"
 #include "cairn/material.h"
+#include "cairn/query.h"
 #include "cairn/settings.h"
 #include "cairn/shape.h"
 #include "cairn/statistics.h"
@@ -105,7 +106,8 @@ class Moment {
     std::unique_ptr<MomentState> state_;
 };
 
-/// A simulated world. Not copyable; one thread at a time may use it (its own threads are inside step()).
+/// A simulated world. Not copyable; one thread at a time may use it (its own threads are inside step()). Only questions
+/// may be asked by several threads at once, while none changes the world.
 class World {
   public:
     /// @throws InputError if the settings are out of range or contradict each other
@@ -222,6 +224,28 @@ class World {
     void keep(Moment& moment) const;
     /// Becomes what was kept, of this or another world, as load() of a snapshot does. @throws InputError if it is empty
     void load(const Moment& moment);
+
+    // --- questions: about the bodies where they are now, also before the first step ---
+    /// The nearest body that a ray hits; of several at one distance that with the lowest id, and its lowest part.
+    /// @throws InputError for a ray that is not finite or has no direction
+    std::optional<RayHit> castRay(const Ray& ray, const QueryFilter& filter = {}) const;
+    /// All parts of bodies that a ray hits, by distance, body and part. @throws as castRay
+    std::vector<RayHit> castRayThrough(const Ray& ray, const QueryFilter& filter = {}) const;
+    /// As castRay() for each ray, on the threads of the world. @throws as castRay
+    std::vector<std::optional<RayHit>> castRays(std::span<const Ray> rays, const QueryFilter& filter = {}) const;
+    /// The first body that a shape meets which moves without turning; of several as castRay(). @param pose where it
+    /// begins @param way [m, W], not zero @throws InputError as the function of this name in query.h
+    std::optional<BodyHit> castShape(const Shape& shape, const Pose& pose, const Vec3& way,
+                                     const QueryFilter& filter = {}) const;
+    /// The parts of bodies that have a point in common with a shape, by body and part. @throws InputError as above
+    std::vector<Overlap> overlap(const Shape& shape, const Pose& pose, const QueryFilter& filter = {}) const;
+    /// The same for a box along the axes of W. @param lower, upper its corners [m, W] @throws InputError as above
+    std::vector<Overlap> overlap(const Vec3& lower, const Vec3& upper, const QueryFilter& filter = {}) const;
+    /// The bodies within reach of a shape, by distance and body. @param reach [m], ≥ 0 @throws InputError as above
+    std::vector<NearBody> closestPoints(const Shape& shape, const Pose& pose, double reach,
+                                        const QueryFilter& filter = {}) const;
+    /// Of two bodies. @throws StaleIdError, InputError for two half-spaces
+    ClosestPoints closestPoints(BodyId a, BodyId b) const;
 
     // --- after a step ---
     std::vector<ContactInfo> contacts() const;     ///< of the last step, by (a, b)

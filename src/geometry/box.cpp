@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/shape_entry.h"
 
@@ -36,8 +38,32 @@ Vec3 farthest(const Box& box, const Vec3& direction) {
             std::copysign(0.5 * box.size.z(), direction.z())};
 }
 
+std::optional<LocalHit> surface(const Box& box, const LocalRay& ray) {
+    const Vec3 half = 0.5 * box.size;
+    if ((ray.origin.array().abs() <= half.array()).all()) return hitAtOnce(ray);
+    double enter = 0;
+    double leave = std::numeric_limits<double>::infinity();
+    Eigen::Index entered = -1;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+        const double d = ray.direction[k];
+        if (d == 0) {
+            if (std::abs(ray.origin[k]) > half[k]) return {};
+            continue;
+        }
+        const double near = (-std::copysign(half[k], d) - ray.origin[k]) / d;
+        leave = std::min(leave, (std::copysign(half[k], d) - ray.origin[k]) / d);
+        if (near < 0 || (near <= enter && entered >= 0)) continue;
+        enter = near;
+        entered = k;
+    }
+    if (entered < 0 || enter > leave) return {};
+    Vec3 normal = Vec3::Zero();
+    normal[entered] = -std::copysign(1.0, ray.direction[entered]);
+    return LocalHit{enter, normal};
+}
+
 constexpr ShapeEntry box_entry =
-    finiteShapeEntry<Box, validate, massProperties, radius, innerRadius, bounds, farthest>("box");
+    finiteShapeEntry<Box, validate, massProperties, radius, innerRadius, bounds, surface, farthest>("box");
 
 }  // namespace
 

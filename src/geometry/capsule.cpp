@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -45,8 +46,44 @@ Vec3 farthest(const Capsule& capsule, const Vec3& direction) {
     return point;
 }
 
+/// Where a ray from outside enters a ball on the axis.
+void offerBall(const LocalRay& ray, double radius, double height, std::optional<LocalHit>& best) {
+    const Vec3 centre(0, 0, height);
+    const Vec3 from = ray.origin - centre;
+    const double along = from.dot(ray.direction);
+    if (!(along < 0)) return;
+    const double chord = radius * radius - (from - along * ray.direction).squaredNorm();
+    if (chord < 0) return;
+    const double distance = std::max(0.0, -along - std::sqrt(chord));
+    if (best && best->distance <= distance) return;
+    best = LocalHit{distance, (from + distance * ray.direction).normalized()};
+}
+
+std::optional<LocalHit> surface(const Capsule& capsule, const LocalRay& ray) {
+    const double r = capsule.radius;
+    const double half = 0.5 * capsule.length;
+    const Vec3 beside = ray.origin - Vec3(0, 0, std::clamp(ray.origin.z(), -half, half));
+    if (beside.squaredNorm() <= r * r) return hitAtOnce(ray);
+    // The solid is a tube and two balls: outside all of them, the ray enters it where it first enters one.
+    std::optional<LocalHit> best;
+    const Eigen::Vector2d across = ray.direction.head<2>();
+    const double squared = across.squaredNorm();
+    const double along = ray.origin.head<2>().dot(across) / squared;
+    const double chord = r * r - (ray.origin.head<2>() - along * across).squaredNorm();
+    if (squared > 0 && chord >= 0) {
+        const double distance = -along - std::sqrt(chord / squared);
+        const Vec3 point = ray.origin + distance * ray.direction;
+        if (distance >= 0 && std::abs(point.z()) <= half) {
+            best = LocalHit{distance, Vec3(point.x(), point.y(), 0).normalized()};
+        }
+    }
+    offerBall(ray, r, half, best);
+    offerBall(ray, r, -half, best);
+    return best;
+}
+
 constexpr ShapeEntry capsule_entry =
-    finiteShapeEntry<Capsule, validate, massProperties, radius, innerRadius, bounds, farthest>("capsule");
+    finiteShapeEntry<Capsule, validate, massProperties, radius, innerRadius, bounds, surface, farthest>("capsule");
 
 }  // namespace
 

@@ -100,8 +100,19 @@ Vec3 farthest(const Compound& compound, const Vec3& direction) {
     return best;
 }
 
+std::optional<LocalHit> surface(const Compound& compound, const LocalRay& ray) {
+    std::optional<LocalHit> best;
+    for (std::size_t i = 0; i < compound.parts.size(); ++i) {
+        const std::optional<LocalHit> hit = castRay(compound.parts[i], ray);
+        if (!hit || (best && best->distance <= hit->distance)) continue;
+        best = hit;
+        best->part = static_cast<std::uint32_t>(i);
+    }
+    return best;
+}
+
 constexpr ShapeEntry compound_entry =
-    finiteShapeEntry<Compound, validate, massProperties, radius, innerRadius, bounds, farthest>("compound");
+    finiteShapeEntry<Compound, validate, massProperties, radius, innerRadius, bounds, surface, farthest>("compound");
 
 /// Centre of mass of a part in the frame of the compound. @param p whose quaternion may have any length
 Vec3 centreOf(const PartMass& p) {
@@ -109,6 +120,13 @@ Vec3 centreOf(const PartMass& p) {
 }
 
 }  // namespace
+
+std::optional<LocalHit> castRay(const CompoundPart& part, const LocalRay& ray) {
+    const Quat back = part.pose.orientation.conjugate();
+    std::optional<LocalHit> hit = castRay(part.shape, {part.pose.toInner(ray.origin), back * ray.direction});
+    if (hit) hit->normal = part.pose.orientation * hit->normal;
+    return hit;
+}
 
 UnitMassProperties combine(std::span<const PartMass> parts) {
     double mass = 0;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "geometry/shape_entry.h"
@@ -41,8 +42,42 @@ Vec3 farthest(const Cylinder& cylinder, const Vec3& direction) {
     return {across.x(), across.y(), std::copysign(0.5 * cylinder.length, direction.z())};
 }
 
+std::optional<LocalHit> surface(const Cylinder& cylinder, const LocalRay& ray) {
+    const double r = cylinder.radius;
+    const double half = 0.5 * cylinder.length;
+    const Eigen::Vector2d from = ray.origin.head<2>();
+    const Eigen::Vector2d across = ray.direction.head<2>();
+    const bool within_tube = from.squaredNorm() <= r * r;
+    if (within_tube && std::abs(ray.origin.z()) <= half) return hitAtOnce(ray);
+    double enter = -std::numeric_limits<double>::infinity();
+    double leave = std::numeric_limits<double>::infinity();
+    const double squared = across.squaredNorm();
+    if (squared > 0) {
+        const double along = from.dot(across) / squared;
+        const double chord = r * r - (from - along * across).squaredNorm();
+        if (chord < 0) return {};
+        enter = -along - std::sqrt(chord / squared);
+        leave = -along + std::sqrt(chord / squared);
+    } else if (!within_tube) {
+        return {};
+    }
+    bool by_cap = false;
+    if (const double d = ray.direction.z(); d != 0) {
+        const double cap = (-std::copysign(half, d) - ray.origin.z()) / d;
+        leave = std::min(leave, (std::copysign(half, d) - ray.origin.z()) / d);
+        by_cap = cap > enter;
+        enter = std::max(enter, cap);
+    } else if (std::abs(ray.origin.z()) > half) {
+        return {};
+    }
+    if (enter > leave || enter < 0) return {};
+    if (by_cap) return LocalHit{enter, {0, 0, -std::copysign(1.0, ray.direction.z())}};
+    const Vec3 point = ray.origin + enter * ray.direction;
+    return LocalHit{enter, Vec3(point.x(), point.y(), 0).normalized()};
+}
+
 constexpr ShapeEntry cylinder_entry =
-    finiteShapeEntry<Cylinder, validate, massProperties, radius, innerRadius, bounds, farthest>("cylinder");
+    finiteShapeEntry<Cylinder, validate, massProperties, radius, innerRadius, bounds, surface, farthest>("cylinder");
 
 }  // namespace
 

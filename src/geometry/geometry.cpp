@@ -62,4 +62,8 @@ Vec3 support(const Shape& shape, const Vec3& direction) {
     return entryOf(shape).support(shape, direction);
 }
 
+std::optional<LocalHit> castRay(const Shape& shape, const LocalRay& ray) {
+    return entryOf(shape).cast_ray(shape, ray);
+}
+
 }  // namespace cairn

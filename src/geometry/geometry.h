@@ -1,7 +1,9 @@
 /// @file What the engine needs to know of a shape apart from its contacts. One table entry per kind of shape.
 #pragma once
 
+#include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -38,6 +40,19 @@ struct UnitMassProperties {
     Quat axes = Quat::Identity();  ///< B, the principal axes, to the frame of the shape
 };
 
+/// A half line in the frame of a shape.
+struct LocalRay {
+    Vec3 origin;     ///< [m]
+    Vec3 direction;  ///< unit
+};
+
+/// Where a ray meets a shape.
+struct LocalHit {
+    double distance;         ///< from the origin of the ray [m]
+    Vec3 normal;             ///< unit, outward, in the frame of the shape
+    std::uint32_t part = 0;  ///< of a compound
+};
+
 /// "sphere", "box", "capsule", "plane", "cylinder", "hull", "compound": the name in scene files.
 std::string_view shapeName(const Shape& shape);
 /// @throws InputError if a dimension is not finite or not positive; the text names it
@@ -55,5 +70,10 @@ double smallestRadius(const Shape& shape);
 Bounds boundsOf(const Shape& shape, const Pose& pose);
 /// The farthest point in a direction. @param direction [B], not zero @return [m, B] @pre !isInfinite(shape)
 Vec3 support(const Shape& shape, const Vec3& direction);
+/// Where a ray first meets a shape; one that begins inside or on it meets it at once, with the normal against it. Of
+/// parts of a compound that are met at once the first counts.
+std::optional<LocalHit> castRay(const Shape& shape, const LocalRay& ray);
+/// The same for one part of a compound, in the frame of the compound.
+std::optional<LocalHit> castRay(const CompoundPart& part, const LocalRay& ray);
 
 }  // namespace cairn

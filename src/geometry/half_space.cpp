@@ -53,8 +53,17 @@ Bounds bounds(const HalfSpace& half_space, const Pose& pose) {
     return result;
 }
 
+std::optional<LocalHit> surface(const HalfSpace& half_space, const LocalRay& ray) {
+    const Vec3 normal = unitNormal(half_space);
+    const double height = normal.dot(ray.origin) - half_space.offset;
+    if (height <= 0) return hitAtOnce(ray);
+    const double fall = -normal.dot(ray.direction);
+    if (!(fall > 0)) return {};
+    return LocalHit{height / fall, normal};
+}
+
 constexpr ShapeEntry half_space_entry =
-    infiniteShapeEntry<HalfSpace, validate, massProperties, radius, innerRadius, bounds>("plane");
+    infiniteShapeEntry<HalfSpace, validate, massProperties, radius, innerRadius, bounds, surface>("plane");
 
 }  // namespace
 

@@ -44,8 +44,31 @@ Vec3 farthest(const ConvexHull& hull, const Vec3& direction) {
     return corners[best];
 }
 
+std::optional<LocalHit> surface(const ConvexHull& hull, const LocalRay& ray) {
+    double enter = -std::numeric_limits<double>::infinity();
+    double leave = std::numeric_limits<double>::infinity();
+    const HullFace* entered = nullptr;
+    bool is_inside = true;
+    for (const HullFace& face : hull.data().faces) {
+        const double height = face.normal.dot(ray.origin) - face.offset;
+        const double climb = face.normal.dot(ray.direction);
+        is_inside = is_inside && height <= 0;
+        if (climb == 0) {
+            if (height > 0) return {};
+        } else if (climb > 0) {
+            leave = std::min(leave, -height / climb);
+        } else if (-height / climb > enter) {
+            enter = -height / climb;
+            entered = &face;
+        }
+    }
+    if (is_inside) return hitAtOnce(ray);
+    if (entered == nullptr || enter > leave || enter < 0) return {};
+    return LocalHit{enter, entered->normal};
+}
+
 constexpr ShapeEntry hull_entry =
-    finiteShapeEntry<ConvexHull, validate, massProperties, radius, innerRadius, bounds, farthest>("hull");
+    finiteShapeEntry<ConvexHull, validate, massProperties, radius, innerRadius, bounds, surface, farthest>("hull");
 
 }  // namespace
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "geometry/shape_entry.h"
@@ -32,8 +34,20 @@ Vec3 farthest(const Sphere& sphere, const Vec3& direction) {
     return sphere.radius * direction.stableNormalized();
 }
 
+std::optional<LocalHit> surface(const Sphere& sphere, const LocalRay& ray) {
+    const double along = ray.origin.dot(ray.direction);
+    const double outside = ray.origin.squaredNorm() - sphere.radius * sphere.radius;
+    if (!(outside > 0)) return hitAtOnce(ray);
+    if (!(along < 0)) return {};
+    // Of the line's nearest point, not of the origin: nothing is lost when the ray comes from far away.
+    const double chord = sphere.radius * sphere.radius - (ray.origin - along * ray.direction).squaredNorm();
+    if (chord < 0) return {};
+    const double distance = std::max(0.0, -along - std::sqrt(chord));
+    return LocalHit{distance, (ray.origin + distance * ray.direction).normalized()};
+}
+
 constexpr ShapeEntry sphere_entry =
-    finiteShapeEntry<Sphere, validate, massProperties, radius, innerRadius, bounds, farthest>("sphere");
+    finiteShapeEntry<Sphere, validate, massProperties, radius, innerRadius, bounds, surface, farthest>("sphere");
 
 }  // namespace
 

@@ -63,6 +63,7 @@ void loadMoment(const MomentState& moment, WorldState& world) {
     world.data.pairs.adopt(world.data.contacts);
     world.data.contacts_of.begin.clear();
     world.ties.forget();
+    world.index.forget();
     world.trace.correction.clear();
     world.trace.shock_stage.clear();
 }

@@ -218,6 +218,7 @@ void outputStage(WorldState& world) {
 
 void stepWorld(WorldState& world) {
     ++world.steps;
+    ++world.places_version;
     world.statistics = {};
     Statistics& statistics = world.statistics;
     const bool checked = world.checks != Checks::off;

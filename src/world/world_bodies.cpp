@@ -153,6 +153,7 @@ BodyId World::addBody(const BodyDescription& d) {
                         w.settings.limits.body_limit));
     }
     w.lasting.reset();
+    ++w.places_version;
     const BodyIndex i = b.allocate(d.fixed ? BodyKind::fixed : BodyKind::dynamic);
     b.shape[i] = normalised(d.shape);
     try {
@@ -178,6 +179,7 @@ void World::removeBody(BodyId id) {
     WorldState& w = *state_;
     const BodyIndex i = w.bodies.indexOf(id);
     w.lasting.reset();
+    ++w.places_version;
     wakeTouching(w, id);
     w.ties.list(w.springs, w.joints, w.bodies.slots());
     for (const std::uint32_t slot : w.ties.springsOf(i)) removeTie(w.springs[slot], i, w.bodies.state());
@@ -260,6 +262,7 @@ void World::setPose(BodyId id, const Pose& pose) {
     const BodyIndex i = b.indexOf(id);
     requireWithin(pose.position, distance_limit, "position", "m");
     const Quat orientation = requireRotation(pose.orientation);
+    ++state_->places_version;
     b.setShapePose(i, {pose.position, orientation});
     b.updateMassProperties(i);
     b.state().wake(i, WakeReason::changed);

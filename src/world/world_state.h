@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "batches/batches.h"
@@ -19,6 +20,7 @@
 #include "joints/joint_groups.h"
 #include "pairs/pair_table.h"
 #include "parallel/executor.h"
+#include "queries/spatial_index.h"
 #include "resolution/resolution.h"
 #include "world/ties.h"
 
@@ -126,6 +128,9 @@ struct WorldState {
     EventLog events;
     TraceData trace;
     Checks checks = Checks::off;
+    std::uint64_t places_version = 1;            ///< raised by whatever moves, adds or removes bodies
+    CurrentIndex index;                          ///< of the bodies, for questions
+    std::mutex asking;                           ///< held by the question that uses the executor
     std::shared_ptr<const LastingPart> lasting;  ///< shared with the last moment; null = it changed since
 };
 

@@ -1,0 +1,179 @@
+#include "queries/body_query.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "queries/shape_pair.h"
+
+namespace cairn {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Calls visit(part) for the parts of a target whose bounds overlap a box of W.
+template <class Visit>
+void forEachPart(const Target& target, const Bounds& box, const Visit& visit) {
+    const auto* compound = std::get_if<Compound>(&target.shape);
+    if (compound == nullptr) return visit(std::uint32_t{0});
+    if (target.parts != nullptr && box.lower.allFinite() && box.upper.allFinite()) {
+        // The box turned into the frame of the compound, in bounds of its own.
+        const Vec3 half = 0.5 * (box.upper - box.lower);
+        const Vec3 centre = target.pose.toInner(box.lower + half);
+        const Vec3 extent = target.pose.orientation.conjugate().toRotationMatrix().cwiseAbs() * half;
+        return target.parts->forEachOverlapping(widened({centre - extent, centre + extent}), visit);
+    }
+    for (std::uint32_t i = 0; i < compound->parts.size(); ++i) visit(i);
+}
+
+/// The ray in the frame of a target.
+LocalRay localRay(const Target& target, const Ray& ray) {
+    return {target.pose.toInner(ray.origin), target.pose.orientation.conjugate() * ray.direction};
+}
+
+SurfaceHit outerHit(const Target& target, const Ray& ray, const LocalHit& hit) {
+    return {hit.distance, ray.origin + hit.distance * ray.direction, target.pose.orientation * hit.normal, hit.part};
+}
+
+/// Of a part, with its index.
+std::optional<LocalHit> hitOfPart(const Compound& compound, std::uint32_t part, const LocalRay& ray) {
+    std::optional<LocalHit> hit = castRay(compound.parts[part], ray);
+    if (hit) hit->part = part;
+    return hit;
+}
+
+auto order(const ShapeHit& hit) {
+    return std::tuple(hit.distance, hit.part, hit.moving_part);
+}
+auto order(const ClosestPoints& found) {
+    return std::tuple(found.distance, found.part_b, found.part_a);
+}
+
+/// How far two boxes are apart at least [m].
+double gapOf(const Bounds& a, const Bounds& b) {
+    const Vec3 apart = (a.lower - b.upper).cwiseMax(b.lower - a.upper).cwiseMax(0.0);
+    return apart.stableNorm();
+}
+
+/// Bounds of a shape on its whole way.
+Bounds sweptBounds(const AskedShape& moving, const Vec3& direction, double reach) {
+    const Bounds begin = boundsOf(moving.shape, moving.pose);
+    const Vec3 way = reach * direction;
+    return widened({begin.lower.cwiseMin(begin.lower + way), begin.upper.cwiseMax(begin.upper + way)});
+}
+
+}  // namespace
+
+Bounds widened(const Bounds& bounds) {
+    const Vec3 most = bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs());
+    // Bounds without an end have no size that could be rounded.
+    const Vec3 slack = most.unaryExpr([](double x) { return x < infinity ? 1e-9 * x : 0.0; });
+    return {bounds.lower - slack, bounds.upper + slack};
+}
+
+std::vector<Bounds> boundsOfParts(const Compound& compound) {
+    std::vector<Bounds> bounds;
+    for (const CompoundPart& part : compound.parts) bounds.push_back(widened(boundsOf(part.shape, part.pose)));
+    return bounds;
+}
+
+std::optional<SurfaceHit> castRayAt(const Target& target, const Ray& ray) {
+    const LocalRay local = localRay(target, ray);
+    std::optional<LocalHit> best;
+    if (target.parts == nullptr) {
+        best = castRay(target.shape, local);
+        if (best && best->distance > ray.reach) best.reset();
+    } else {
+        const auto& compound = *std::get_if<Compound>(&target.shape);
+        double reach = ray.reach;
+        target.parts->forEachAlong({local.origin, local.direction}, reach, [&](std::uint32_t part) {
+            const std::optional<LocalHit> hit = hitOfPart(compound, part, local);
+            if (!hit || hit->distance > reach) return;
+            if (best && std::tuple(best->distance, best->part) < std::tuple(hit->distance, part)) return;
+            best = hit;
+            reach = hit->distance;
+        });
+    }
+    if (!best) return {};
+    return outerHit(target, ray, *best);
+}
+
+void castRayThrough(const Target& target, const Ray& ray, std::vector<SurfaceHit>& hits) {
+    const LocalRay local = localRay(target, ray);
+    const auto* compound = std::get_if<Compound>(&target.shape);
+    if (compound == nullptr) {
+        if (const auto hit = castRayAt(target, ray)) hits.push_back(*hit);
+        return;
+    }
+    for (std::uint32_t part = 0; part < compound->parts.size(); ++part) {
+        const std::optional<LocalHit> hit = hitOfPart(*compound, part, local);
+        if (hit && hit->distance <= ray.reach) hits.push_back(outerHit(target, ray, *hit));
+    }
+}
+
+std::optional<ShapeHit> castShapeAt(const AskedShape& moving, const Vec3& direction, double reach,
+                                    const Target& target) {
+    std::optional<ShapeHit> best;
+    for (std::uint32_t i = 0; i < partCount(moving.shape); ++i) {
+        const Placed part = placedPart(moving.shape, moving.pose, i);
+        forEachPart(target, sweptBounds({part.shape, part.pose}, direction, reach), [&](std::uint32_t k) {
+            std::optional<ShapeHit> hit = castPart(part, direction, reach, placedPart(target.shape, target.pose, k));
+            if (!hit) return;
+            hit->moving_part = i;
+            hit->part = k;
+            if (!best || order(*hit) < order(*best)) best = hit;
+            reach = std::min(reach, best->distance);
+        });
+    }
+    return best;
+}
+
+void findOverlaps(const AskedShape& asked, const Target& target, std::vector<std::uint32_t>& parts) {
+    parts.clear();
+    for (std::uint32_t i = 0; i < partCount(asked.shape); ++i) {
+        const Placed part = placedPart(asked.shape, asked.pose, i);
+        const Bounds bounds = widened(boundsOf(part.shape, part.pose));
+        forEachPart(target, bounds, [&](std::uint32_t k) {
+            const Placed other = placedPart(target.shape, target.pose, k);
+            if (!bounds.overlaps(widened(boundsOf(other.shape, other.pose)))) return;
+            if (closestOfParts(part, other, 0)) parts.push_back(k);
+        });
+    }
+    std::ranges::sort(parts);
+    const auto twice = std::ranges::unique(parts);
+    parts.erase(twice.begin(), twice.end());
+}
+
+std::optional<ClosestPoints> closestAt(const AskedShape& asked, const Target& target, double limit) {
+    std::optional<ClosestPoints> best;
+    for (std::uint32_t i = 0; i < partCount(asked.shape); ++i) {
+        const Placed part = placedPart(asked.shape, asked.pose, i);
+        const Bounds bounds = widened(boundsOf(part.shape, part.pose));
+        forEachPart(target, bounds.grown(limit), [&](std::uint32_t k) {
+            const Placed other = placedPart(target.shape, target.pose, k);
+            const double farthest = best ? std::max(best->distance, 0.0) : limit;
+            if (gapOf(bounds, widened(boundsOf(other.shape, other.pose))) > farthest) return;
+            std::optional<ClosestPoints> found = closestOfParts(part, other, farthest);
+            if (!found) return;
+            found->part_a = i;
+            found->part_b = k;
+            if (!best || order(*found) < order(*best)) best = found;
+        });
+    }
+    return best;
+}
+
+void requireBounded(const Shape& moving) {
+    if (!isInfinite(moving)) return;
+    throw InputError(fmt::format("a {} has no bounds and cannot move; cast another shape", shapeName(moving)));
+}
+
+void requireClosest(const Shape& a, const Shape& b) {
+    if (!isInfinite(a) || !isInfinite(b)) return;
+    throw InputError(fmt::format("a {} and a {} have no closest points; at least one shape must be bounded",
+                                 shapeName(a), shapeName(b)));
+}
+
+}  // namespace cairn
