@@ -3,6 +3,7 @@
 
 #include "cairn/checkpoint.h"
 #include "cairn/events.h"
+#include "cairn/filter.h"
 #include "cairn/material.h"
 #include "cairn/query.h"
 #include "cairn/recording.h"

@@ -27,6 +27,8 @@ enum class EventKind : std::uint8_t {
     fell_asleep,        ///< a body fell asleep
     frozen,             ///< a body left the finite numbers and was fixed; World::faults() says more
     joint_broke,        ///< a joint was loaded more than it bears and is gone
+    sensor_entered,     ///< body b overlaps sensor a and did not in the last step
+    sensor_left,        ///< body b no longer overlaps sensor a; either may have been removed
 };
 
 /// One event of a step.

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "cairn/filter.h"
 #include "cairn/shape.h"
 #include "cairn/types.h"
 
@@ -81,9 +82,10 @@ struct NearBody {
     ClosestPoints closest;  ///< A is the shape, B the body
 };
 
-/// Which bodies a question is about.
+/// Which bodies a question is about: of all that are no sensors …
 struct QueryFilter {
-    std::span<const BodyId> except{};  ///< not these; ids that are stale are no error
+    std::span<const BodyId> except{};   ///< not these; ids that are stale are no error
+    std::span<const GroupId> groups{};  ///< only those that are in one of these; empty = all
 };
 
 // Every function below throws InputError for shapes out of range, for poses, rays and ways that are not finite or

@@ -31,6 +31,29 @@ struct SceneBody {
     Vec3 angular_velocity = Vec3::Zero();  ///< [rad/s, W]
     bool fixed = false;
     bool asleep = false;
+    std::vector<std::string> groups;  ///< names of SceneFilters::groups
+    bool sensor = false;              ///< as that of BodyDescription, and so below
+    double gravity_factor = 1;
+    double linear_damping = 0;   ///< [1/s]
+    double angular_damping = 0;  ///< [1/s]
+    std::uint64_t user_data = 0;
+};
+
+/// An exception of two bodies of a scene from what their groups say.
+struct SceneException {
+    std::size_t a = 0;            ///< index in Scene::bodies
+    std::size_t b = 0;            ///< index in Scene::bodies
+    Touch touch = Touch::always;  ///< whether they do
+};
+
+/// Which bodies of a scene touch each other.
+struct SceneFilters {
+    std::vector<std::string> groups;                         ///< unique names, at most most_groups
+    std::vector<std::pair<std::string, std::string>> apart;  ///< groups that never touch
+    std::vector<SceneException> exceptions;
+
+    /// Whether all bodies touch.
+    bool isEmpty() const { return groups.empty() && exceptions.empty(); }
 };
 
 /// A joint of a scene.
@@ -97,6 +120,7 @@ struct Scene {
     std::vector<Material> materials;
     PairProperties default_pair;
     std::vector<std::pair<std::pair<std::string, std::string>, PairProperties>> pairs;
+    SceneFilters filters;
     std::vector<SceneBody> bodies;
     std::vector<SceneSpring> springs;
     std::vector<SceneJoint> joints;

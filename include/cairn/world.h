@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cairn/events.h"
+#include "cairn/filter.h"
 #include "cairn/joint.h"
 #include "cairn/material.h"
 #include "cairn/query.h"
@@ -34,6 +35,12 @@ struct BodyDescription {
     bool fixed = false;                    ///< never moves, infinite mass; half-spaces must be fixed
     bool asleep = false;                   ///< begins asleep (velocities must be zero)
     std::string name{};                    ///< free, for messages and viewers
+    std::vector<GroupId> groups{};         ///< any number; none = touches the bodies of all groups
+    bool sensor = false;                   ///< touches nobody; World::sensed() and events say who is inside
+    double gravity_factor = 1;             ///< of the global accelerations that it feels, −1e3 to 1e3; 0 = weightless
+    double linear_damping = 0;             ///< rate at which the linear velocity decays [1/s], 0 to 1e6
+    double angular_damping = 0;            ///< rate at which the angular velocity decays [1/s], 0 to 1e6
+    std::uint64_t user_data = 0;           ///< the user's own, kept in snapshots
 };
 
 /// A damped spring between two points. @source pe engine's springs, by behaviour
@@ -169,6 +176,34 @@ class World {
     void setConstantForce(BodyId id, const Vec3& force);       ///< in every step from now on [N, W]
     void setConstantTorque(BodyId id, const Vec3& torque);     ///< in every step from now on [N·m, W]
 
+    void setGravityFactor(BodyId id, double factor);  ///< as that of the description @throws InputError out of range
+    double gravityFactor(BodyId id) const;            ///< as that of the description
+    /// Rates at which its velocities decay [1/s]. @throws InputError out of range
+    void setDamping(BodyId id, double linear, double angular);
+    double linearDamping(BodyId id) const;            ///< [1/s]
+    double angularDamping(BodyId id) const;           ///< [1/s]
+    void setUserData(BodyId id, std::uint64_t data);  ///< the world itself never reads it
+    std::uint64_t userData(BodyId id) const;          ///< 0 unless it was set
+
+    // --- filters and sensors ---
+    /// @throws InputError for an empty or used name, or beyond most_groups
+    GroupId addGroup(const std::string& name);
+    std::span<const std::string> groupNames() const;  ///< of all groups, by id
+    /// Whether bodies of two groups (or of one, a = b) touch; at first all do. @throws InputError for an unknown group
+    void setGroupsTouch(GroupId a, GroupId b, Touch touch);
+    Touch groupsTouch(GroupId a, GroupId b) const;  ///< @throws InputError for an unknown group
+    /// Puts a body into these groups and no others. @throws StaleIdError, InputError for an unknown group
+    void setGroups(BodyId id, std::span<const GroupId> groups);
+    std::vector<GroupId> groups(BodyId id) const;  ///< ascending @throws StaleIdError
+    /// An exception of two bodies from what their groups say, until one of them is removed; none = no exception.
+    /// Jointed bodies and sensors do not touch in any case. @throws StaleIdError, InputError if a is b
+    void setPairTouch(BodyId a, BodyId b, std::optional<Touch> touch);
+    std::optional<Touch> pairTouch(BodyId a, BodyId b) const;  ///< @throws StaleIdError
+    bool isSensor(BodyId id) const;                            ///< @throws StaleIdError
+    /// Who was inside which sensor in the last step, by sensor and body: bodies that are no sensors, that its groups
+    /// touch, and of which one or the sensor can move.
+    std::span<const Sensed> sensed() const;
+
     // --- springs ---
     /// @throws InputError, StaleIdError
     SpringId addSpring(const SpringDescription& description);
@@ -259,9 +294,9 @@ class World {
     /// Which events the following steps collect; none at first.
     void setEventLevel(EventLevel level);
     EventLevel eventLevel() const;
-    /// What happened in the last step, in an order that does not depend on threads: contacts by (a, b), then bodies
-    /// that woke and fell asleep, by id, then faults as in faults(), then joints that broke, by id. Valid until the
-    /// next step.
+    /// What happened in the last step, in an order that does not depend on threads: contacts by (a, b), then sensors by
+    /// (sensor, body), then bodies that woke and fell asleep, by id, then faults as in faults(), then joints that
+    /// broke, by id. Valid until the next step.
     std::span<const Event> events() const;
     double kineticEnergy() const;    ///< [J]
     double potentialEnergy() const;  ///< [J], in the sum of the global accelerations, zero at the origin

@@ -52,6 +52,11 @@ struct BodyArrays {
     FieldArray<WakeReason> woken;                      ///< why it woke in this step
     FieldArray<double> motion;          ///< rwa: recency-weighted average of the squared motion [m²/s²] (3.2.4)
     FieldArray<std::int32_t> supports;  ///< contacts in the direction of gravity in the last step; −1 = unknown
+    FieldArray<std::uint64_t> groups;   ///< bits of the groups that it is in
+    FieldArray<std::uint8_t> sensor;    ///< 1 = reports who is inside and touches nobody
+    FieldArray<double> gravity_factor;  ///< of the global accelerations that it feels
+    FieldArray<double> linear_damping, angular_damping;  ///< rates at which its velocities decay [1/s]
+    FieldArray<std::uint64_t> user_data;                 ///< the user's own
 };
 
 /// What changes a field.
@@ -137,6 +142,12 @@ inline constexpr auto body_fields = std::tuple{
     BodyField{&BodyArrays::woken, "woken", "", Change::steps, Sync::on_migration},
     BodyField{&BodyArrays::motion, "motion", "m²/s²", Change::steps, Sync::on_migration},
     BodyField{&BodyArrays::supports, "supports", "1", Change::steps, Sync::on_migration, [] { return -1; }},
+    BodyField{&BodyArrays::groups, "groups", "", Change::calls, Sync::on_creation},
+    BodyField{&BodyArrays::sensor, "sensor", "", Change::calls, Sync::on_creation},
+    BodyField{&BodyArrays::gravity_factor, "gravity_factor", "1", Change::calls, Sync::on_creation, [] { return 1.0; }},
+    BodyField{&BodyArrays::linear_damping, "linear_damping", "1/s", Change::calls, Sync::on_creation},
+    BodyField{&BodyArrays::angular_damping, "angular_damping", "1/s", Change::calls, Sync::on_creation},
+    BodyField{&BodyArrays::user_data, "user_data", "", Change::calls, Sync::on_migration},
 };
 
 static_assert(sizeof(BodyArrays) == std::tuple_size_v<decltype(body_fields)> * sizeof(FieldArray<Vec3>),

@@ -42,6 +42,7 @@ void BodyStorage::release(BodyIndex i) {
     name[i].clear();
     mass_inv[i] = 0;
     asleep[i] = 0;
+    filter.forget(i);
     holes_.push_back(i);
     std::push_heap(holes_.begin(), holes_.end(), std::greater<>());
     --count_;
@@ -81,6 +82,7 @@ BodyState BodyStorage::state() {
             .linear_step = linear_step,
             .asleep = asleep,
             .woken = woken,
+            .gravity_factor = gravity_factor,
             .shock_stage = {}};
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "body/body_fields.h"
+#include "body/pair_filter.h"
 
 namespace cairn {
 
@@ -23,6 +24,15 @@ struct BodyState {
     std::span<const Vec3> linear_step;   ///< ℓ: displacement by the linear velocity in this time step [m, W]
     std::span<std::uint8_t> asleep;      ///< 1 = asleep
     std::span<WakeReason> woken;         ///< why it woke in this step
+    std::span<Vec3> position;                  ///< centre of mass [m, W]
+    std::span<Vec3> v;                         ///< [m/s, W]
+    std::span<Vec3> w;                         ///< [rad/s, W]
+    std::span<const double> mass_inv;          ///< [1/kg]; 0 for fixed bodies
+    std::span<const Mat3> inertiaInv_W;        ///< [1/(kg·m²), W]; 0 for fixed bodies
+    std::span<const Vec3> linear_step;         ///< ℓ: displacement by the linear velocity in this time step [m, W]
+    std::span<std::uint8_t> asleep;            ///< 1 = asleep
+    std::span<WakeReason> woken;               ///< why it woke in this step
+    std::span<const double> gravity_factor{};  ///< of the global accelerations that it feels; empty = all of it
 
     /// Sum of the global accelerations, for the correction [m/s², W].
     Vec3 acceleration = Vec3::Zero();
@@ -34,6 +44,7 @@ struct BodyState {
     std::span<std::int32_t> shock_stage{};
 
     std::size_t size() const { return kind.size(); }
+    double gravityFactor(BodyIndex i) const { return gravity_factor.empty() ? 1.0 : gravity_factor[i]; }
     bool isFixed(BodyIndex i) const { return kind[i] != BodyKind::dynamic; }
     /// Wakes a body if it sleeps, keeping the first reason of the step.
     void wake(BodyIndex i, WakeReason reason) const {
@@ -76,6 +87,13 @@ class BodyStorage : public BodyArrays {
     /// Sets the inverse mass properties from mass, inertia_B, kind and orientation.
     void updateMassProperties(BodyIndex i);
     BodyState state();
+
+    /// Who touches whom. Exceptions of a body end with it.
+    PairFilter filter;
+    /// Whether two bodies never have contacts: their groups or an exception say so, or one of them is a sensor.
+    bool areKeptApart(BodyIndex a, BodyIndex b) const {
+        return (sensor[a] | sensor[b]) != 0 || filter.keepsApart(a, b, groups[a], groups[b]);
+    }
 
   private:
     std::vector<BodyIndex> holes_;  ///< min-heap

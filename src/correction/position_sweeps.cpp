@@ -129,7 +129,8 @@ std::int64_t PositionSweeps::displace(const BatchView& batch, const BodyState& b
             bodies.inertiaInv_W[body] = toWorldInertia(bodies.inertiaInv_B[body], bodies.orientation[body]);
         }
         bodies.wake(body, WakeReason::displaced);
-        share.debt = std::max(0.0, -bodies.acceleration.dot(share.displacement) / bodies.mass_inv[body]);
+        const Vec3 acceleration = bodies.gravityFactor(body) * bodies.acceleration;
+        share.debt = std::max(0.0, -acceleration.dot(share.displacement) / bodies.mass_inv[body]);
         ++moved;
     }
     return moved;

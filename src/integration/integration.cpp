@@ -130,7 +130,7 @@ Vec3 accelerationOf(const BodyStorage& bodies, BodyIndex i, const Vec3& accelera
     const double threshold = settings.damping_threshold * settings.damping_threshold;
     const bool slow = squaredMotion(bodies.v[i], bodies.w[i], bodies.r_max[i]) < threshold;
     const Vec3 force = bodies.force[i] + bodies.constant_force[i];
-    return (slow ? 1 - settings.damping : 1) * acceleration + force * bodies.mass_inv[i];
+    return bodies.gravity_factor[i] * ((slow ? 1 - settings.damping : 1) * acceleration) + force * bodies.mass_inv[i];
 }
 
 void advanceVelocities(BodyStorage& bodies, const Vec3& acceleration, const GravityDampingSettings& settings,

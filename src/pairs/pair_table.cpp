@@ -61,10 +61,11 @@ void collidePair(const BodyStorage& bodies, const BodyPair& pair, const Detectio
     if (foreseen && !would_meet && !ahead.wouldMeet()) contacts.resize(first);
 }
 
-/// Whether one of two bodies can move and no joint keeps them from touching. @param excluded sorted
+/// Whether one of two bodies can move and neither filters nor joints keep them from touching. @param excluded sorted
 bool mayTouch(const BodyStorage& bodies, std::span<const BodyPair> excluded, const BodyPair& pair) {
     const auto [a, b] = std::pair(bodies.kind[pair.a], bodies.kind[pair.b]);
     if (a == BodyKind::hole || b == BodyKind::hole || (a == BodyKind::fixed && b == BodyKind::fixed)) return false;
+    if (bodies.areKeptApart(pair.a, pair.b)) return false;
     return excluded.empty() || !std::ranges::binary_search(excluded, pair);
 }
 

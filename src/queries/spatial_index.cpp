@@ -11,6 +11,12 @@ namespace {
 constexpr std::size_t fewest_for_tree = 8;
 
 bool isAsked(const BodyStorage& bodies, BodyIndex body, const QueryFilter& filter) {
+    if (bodies.sensor[body] != 0) return false;
+    const auto isIn = [&](GroupId group) {
+        const auto index = static_cast<std::uint32_t>(group);
+        return index < most_groups && (bodies.groups[body] >> index & 1U) != 0;
+    };
+    if (!filter.groups.empty() && std::ranges::none_of(filter.groups, isIn)) return false;
     return std::ranges::find(filter.except, bodies.idOf(body)) == filter.except.end();
 }
 

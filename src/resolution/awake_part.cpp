@@ -248,7 +248,7 @@ class AwakePart final : public Resolution {
         if (!isHeld(i)) return;
         along_.push_back({i, bodies.asleep[i], bodies.woken[i]});
         part_[i] = Part::along;
-        bodies.v[i] = bodies.fall;
+        bodies.v[i] = bodies.gravityFactor(i) * bodies.fall;
     }
 
     /// Wakes who was resolved along and pushed, with those tied to it, and leaves the others as they were.

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "geometry/body_mass.h"
 #include "geometry/geometry.h"
 #include "scene/scene_reading.h"
+#include "world/limits.h"
 
 namespace cairn {
 namespace {
@@ -91,9 +93,47 @@ void checkBody(const JsonNode& node, const SceneBody& body, const SceneReading& 
     if (!isInfinite(body.shape)) checkMass(node, body, reading.density.at(body.material));
 }
 
+/// Groups and what the body feels of its own.
+void readOwnProperties(const JsonNode& node, const SceneReading& reading, SceneBody& body) {
+    if (const auto groups = node.find("groups")) {
+        groups->expectArray("an array of names of groups");
+        for (std::size_t i = 0; i < groups->size(); ++i) {
+            const std::string name = readGroup(groups->element(i), reading);
+            if (std::ranges::find(body.groups, name) != body.groups.end()) {
+                groups->element(i).fail(fmt::format("is the group '{}' a second time; name it once", name));
+            }
+            body.groups.push_back(name);
+        }
+    }
+    const auto checked = [](const JsonNode& value, auto require) {
+        const double number = value.number();
+        try {
+            require(number);
+        } catch (const InputError& error) {
+            value.fail(fmt::format("is not allowed: {}", error.what()));
+        }
+        return number;
+    };
+    if (const auto value = node.find("sensor")) body.sensor = value->flag();
+    if (const auto value = node.find("gravity_factor")) {
+        body.gravity_factor = checked(*value, [](double x) { requireGravityFactor(x); });
+    }
+    if (const auto value = node.find("linear_damping")) {
+        body.linear_damping = checked(*value, [](double x) { requireDamping(x, "linear"); });
+    }
+    if (const auto value = node.find("angular_damping")) {
+        body.angular_damping = checked(*value, [](double x) { requireDamping(x, "angular"); });
+    }
+    if (const auto value = node.find("user_data")) {
+        if (!value->value().is_number_unsigned()) value->refuse("a whole number from 0 to 18446744073709551615");
+        body.user_data = value->value().get<std::uint64_t>();
+    }
+}
+
 SceneBody readBody(const JsonNode& node, const SceneReading& reading) {
     node.expectKeys({"shape", "material", "name", "mass", "centre_of_mass", "inertia", "position", "orientation",
-                     "linear_velocity", "angular_velocity", "fixed", "asleep"});
+                     "linear_velocity", "angular_velocity", "fixed", "asleep", "groups", "sensor", "gravity_factor",
+                     "linear_damping", "angular_damping", "user_data"});
     SceneBody body;
     body.shape = readShape(node.required("shape", "an object"));
     const JsonNode material = node.required("material", "the name of a material");
@@ -111,6 +151,7 @@ SceneBody readBody(const JsonNode& node, const SceneReading& reading) {
     if (const auto value = node.find("angular_velocity")) body.angular_velocity = value->vector();
     if (const auto value = node.find("fixed")) body.fixed = value->flag();
     if (const auto value = node.find("asleep")) body.asleep = value->flag();
+    readOwnProperties(node, reading, body);
     checkBody(node, body, reading);
     return body;
 }

@@ -53,8 +53,8 @@ void readSettings(const JsonNode& node, Scene& scene) {
 Scene parseScene(std::string_view json, std::string_view source) {
     const Json document = parseJson(json, source);
     const JsonNode root(document, source);
-    root.expectKeys(
-        {"name", "duration", "gravity", "events", "materials", "contacts", "bodies", "springs", "joints", "settings"});
+    root.expectKeys({"name", "duration", "gravity", "events", "materials", "contacts", "filters", "bodies", "springs",
+                     "joints", "settings"});
     SceneReading reading;
     Scene& scene = reading.scene;
     scene.name = root.required("name", "a text that is not empty").text();
@@ -62,7 +62,10 @@ Scene parseScene(std::string_view json, std::string_view source) {
     scene.gravity = root.required("gravity", "an array of three numbers [m/s²]").vector();
     if (const auto node = root.find("materials")) readMaterials(*node, reading);
     if (const auto node = root.find("contacts")) readContacts(*node, reading);
+    const auto filters = root.find("filters");
+    if (filters) readGroups(*filters, reading);
     readBodies(root.required("bodies", "an array of bodies; it may be empty"), reading);
+    if (filters) readFilterExceptions(*filters, reading);
     if (const auto node = root.find("events")) readEvents(*node, reading);
     if (const auto node = root.find("springs")) readSprings(*node, reading);
     if (const auto node = root.find("joints")) readJoints(*node, reading);

@@ -17,10 +17,14 @@ struct SceneReading {
     std::map<std::string, std::size_t, std::less<>> by_name;  ///< index of each named body
 };
 
-// Each reads the value of one key of the scene, in this order. @throws InputError
+// Each reads the value of one key of the scene. @throws InputError
 void readMaterials(const JsonNode& node, SceneReading& reading);
 void readContacts(const JsonNode& node, SceneReading& reading);
 void readBodies(const JsonNode& node, SceneReading& reading);
+/// Names of groups, and which of them do not touch. Before the bodies, which name them.
+void readGroups(const JsonNode& node, SceneReading& reading);
+/// Exceptions of single pairs of bodies. After the bodies.
+void readFilterExceptions(const JsonNode& node, SceneReading& reading);
 void readEvents(const JsonNode& node, SceneReading& reading);
 void readSprings(const JsonNode& node, SceneReading& reading);
 void readJoints(const JsonNode& node, SceneReading& reading);
@@ -28,6 +32,8 @@ void readJoints(const JsonNode& node, SceneReading& reading);
 /// @throws InputError
 Shape readShape(const JsonNode& node);
 Quat readOrientation(const JsonNode& node);
+/// The name of a group that the scene has.
+std::string readGroup(const JsonNode& node, const SceneReading& reading);
 /// The index of a body that is given by index or name.
 std::size_t readBodyReference(const JsonNode& node, const SceneReading& reading);
 

@@ -80,7 +80,22 @@ MaterialIds addMaterials(const Scene& scene, World& world) {
     return ids;
 }
 
-BodyDescription describe(const SceneBody& body, const MaterialIds& materials) {
+using GroupIds = std::map<std::string, GroupId, std::less<>>;
+
+GroupId findGroup(const GroupIds& ids, const std::string& name) {
+    const auto found = ids.find(name);
+    if (found == ids.end()) throw InputError(fmt::format("group '{}' is not one of the scene's groups", name));
+    return found->second;
+}
+
+GroupIds addGroups(const SceneFilters& filters, World& world) {
+    GroupIds ids;
+    for (const std::string& name : filters.groups) ids.emplace(name, world.addGroup(name));
+    for (const auto& [a, b] : filters.apart) world.setGroupsTouch(findGroup(ids, a), findGroup(ids, b), Touch::never);
+    return ids;
+}
+
+BodyDescription describe(const SceneBody& body, const MaterialIds& materials, const GroupIds& groups) {
     BodyDescription description;
     description.shape = body.shape;
     description.material = findMaterial(materials, body.material);
@@ -93,6 +108,12 @@ BodyDescription describe(const SceneBody& body, const MaterialIds& materials) {
     description.fixed = body.fixed;
     description.asleep = body.asleep;
     description.name = body.name;
+    for (const std::string& name : body.groups) description.groups.push_back(findGroup(groups, name));
+    description.sensor = body.sensor;
+    description.gravity_factor = body.gravity_factor;
+    description.linear_damping = body.linear_damping;
+    description.angular_damping = body.angular_damping;
+    description.user_data = body.user_data;
     return description;
 }
 
@@ -163,10 +184,16 @@ SceneRun::SceneRun(const Scene& scene, const Settings& settings) : scene_(scene)
     std::stable_sort(scene_.events.begin(), scene_.events.end(),
                      [](const SceneEvent& a, const SceneEvent& b) { return a.time < b.time; });
     const MaterialIds materials = addMaterials(scene_, world_);
+    const GroupIds groups = inContext("filters", [&] { return addGroups(scene_.filters, world_); });
     world_.setGravity(scene_.gravity);
     ids_.reserve(scene_.bodies.size());
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-        inContext(bodyTitle(scene_, i), [&] { ids_.push_back(world_.addBody(describe(scene_.bodies[i], materials))); });
+        inContext(bodyTitle(scene_, i),
+                  [&] { ids_.push_back(world_.addBody(describe(scene_.bodies[i], materials, groups))); });
+    }
+    for (const SceneException& exception : scene_.filters.exceptions) {
+        inContext("filters",
+                  [&] { world_.setPairTouch(bodyId(ids_, exception.a), bodyId(ids_, exception.b), exception.touch); });
     }
     for (std::size_t i = 0; i < scene_.springs.size(); ++i) {
         inContext(fmt::format("spring {}", i), [&] { addSpring(scene_.springs[i], ids_, world_); });

@@ -103,6 +103,38 @@ std::string inertiaText(const Mat3& inertia) {
     return out + "]";
 }
 
+std::string namesText(const std::vector<std::string>& names) {
+    std::string out;
+    for (const std::string& name : names) out += (out.empty() ? "" : ",") + text(name);
+    return "[" + out + "]";
+}
+
+/// Groups and what a body feels of its own.
+std::string ownText(const SceneBody& body) {
+    std::string out;
+    if (!body.groups.empty()) out += fmt::format(R"(,"groups":{})", namesText(body.groups));
+    if (body.sensor) out += R"(,"sensor":true)";
+    if (!same(body.gravity_factor, 1)) out += fmt::format(R"(,"gravity_factor":{})", number(body.gravity_factor));
+    if (!same(body.linear_damping, 0)) out += fmt::format(R"(,"linear_damping":{})", number(body.linear_damping));
+    if (!same(body.angular_damping, 0)) out += fmt::format(R"(,"angular_damping":{})", number(body.angular_damping));
+    if (body.user_data != 0) out += fmt::format(R"(,"user_data":{})", body.user_data);
+    return out;
+}
+
+std::string filtersText(const SceneFilters& filters) {
+    std::string out = fmt::format(R"({{"groups":{})", namesText(filters.groups));
+    std::string apart;
+    for (const auto& [a, b] : filters.apart) apart += (apart.empty() ? "" : ",") + namesText({a, b});
+    if (!apart.empty()) out += fmt::format(R"(,"apart":[{}])", apart);
+    std::string exceptions;
+    for (const SceneException& e : filters.exceptions) {
+        exceptions += fmt::format(R"({}{{"a":{},"b":{},"touch":{}}})", exceptions.empty() ? "" : ",", e.a, e.b,
+                                  e.touch == Touch::always);
+    }
+    if (!exceptions.empty()) out += fmt::format(R"(,"exceptions":[{}])", exceptions);
+    return out + "}";
+}
+
 std::string bodyText(const SceneBody& body) {
     std::string out = fmt::format(R"({{"shape":{},"material":{})", objectText(body.shape), text(body.material));
     const auto addVector = [&out](std::string_view key, const Vec3& value) {
@@ -118,7 +150,7 @@ std::string bodyText(const SceneBody& body) {
     addVector("angular_velocity", body.angular_velocity);
     if (body.fixed) out += R"(,"fixed":true)";
     if (body.asleep) out += R"(,"asleep":true)";
-    return out + "}";
+    return out + ownText(body) + "}";
 }
 
 // Bodies of events are written by index: every body has one, few have a name.
@@ -271,8 +303,9 @@ std::string formatScene(const Scene& scene) {
     std::string out = fmt::format("{{\"name\":{},\"duration\":{},\"gravity\":{},\n", text(scene.name),
                                   number(scene.duration), vector(scene.gravity));
     if (!scene.events.empty()) out += fmt::format("\"events\":{},\n", eventsText(scene));
-    out += fmt::format("\"materials\":{},\n\"contacts\":{},\n\"bodies\":{}", materialsText(scene), contactsText(scene),
-                       lines(scene.bodies, bodyText));
+    out += fmt::format("\"materials\":{},\n\"contacts\":{},\n", materialsText(scene), contactsText(scene));
+    if (!scene.filters.isEmpty()) out += fmt::format("\"filters\":{},\n", filtersText(scene.filters));
+    out += fmt::format("\"bodies\":{}", lines(scene.bodies, bodyText));
     if (!scene.springs.empty()) out += fmt::format(",\n\"springs\":{}", lines(scene.springs, springText));
     if (!scene.joints.empty()) out += fmt::format(",\n\"joints\":{}", lines(scene.joints, jointText));
     if (scene.preset || !scene.settings.empty()) out += fmt::format(",\n\"settings\":{}", settingsText(scene));

@@ -135,7 +135,8 @@ void checkEnergy(const WorldState& world, double before) {
     const double speed = (world.gravity + world.global_acceleration).norm() * world.settings.timeStep();
     double mass = 0;
     for (BodyIndex i = 0; i < world.bodies.slots(); ++i) {
-        if (world.bodies.kind[i] == BodyKind::dynamic) mass += world.bodies.mass[i];
+        const double factor = std::max(1.0, std::abs(world.bodies.gravity_factor[i]));
+        if (world.bodies.kind[i] == BodyKind::dynamic) mass += factor * factor * world.bodies.mass[i];
     }
     const double after = kineticEnergyOf(world.bodies);
     if (after <= before * (1 + energy_error) + 0.5 * mass * speed * speed) return;

@@ -81,7 +81,7 @@ void accountForces(WorldState& world, double change) {
     double damped = 0;
     for (BodyIndex i = 0; i < b.slots(); ++i) {
         if (b.kind[i] != BodyKind::dynamic || b.asleep[i] != 0) continue;
-        const double work = b.mass[i] * step.dot(0.5 * (data.v[i] + b.v[i]));
+        const double work = b.gravity_factor[i] * b.mass[i] * step.dot(0.5 * (data.v[i] + b.v[i]));
         gravity += work;
         const bool slow =
             squaredMotion(data.v[i], data.w[i], b.r_max[i]) < damping.damping_threshold * damping.damping_threshold;
@@ -209,6 +209,11 @@ void measure(WorldState& world, Measured point) {
             accountForces(world, now.kinetic - last.kinetic);
             d.force_impulse = now.momentum - last.momentum;
             d.force_angular_impulse = now.angular_momentum - last.angular_momentum;
+            break;
+        case Measured::damping:
+            d.energy_damping += now.kinetic - last.kinetic;
+            d.force_impulse += now.momentum - last.momentum;
+            d.force_angular_impulse += now.angular_momentum - last.angular_momentum;
             break;
         case Measured::resolution:
             accountResolution(world, now.kinetic - last.kinetic);

@@ -47,6 +47,26 @@ void collectContacts(WorldState& world) {
     while (!removed.empty()) endRemoved();
 }
 
+/// Merges the bodies that sensors held in the last step with those of this one.
+void collectSensed(WorldState& world) {
+    EventLog& log = world.events;
+    const auto order = [](const Sensed& s) { return std::tie(s.sensor, s.body); };
+    auto old = log.sensed_before.begin();
+    const auto leave = [&] {
+        log.events.push_back({.kind = EventKind::sensor_left, .a = old->sensor, .b = old->body});
+        ++old;
+    };
+    for (const Sensed& now : world.data.sensed) {
+        while (old != log.sensed_before.end() && order(*old) < order(now)) leave();
+        if (old != log.sensed_before.end() && *old == now) {
+            ++old;
+            continue;
+        }
+        log.events.push_back({.kind = EventKind::sensor_entered, .a = now.sensor, .b = now.body});
+    }
+    while (old != log.sensed_before.end()) leave();
+}
+
 void collectSleep(WorldState& world) {
     EventLog& log = world.events;
     const BodyStorage& bodies = world.bodies;
@@ -68,6 +88,7 @@ void beginEvents(WorldState& world) {
     log.events.clear();
     if (log.level == EventLevel::none) return;
     log.asleep_before.assign(world.bodies.asleep.begin(), world.bodies.asleep.end());
+    log.sensed_before = world.data.sensed;
     log.faults_before = world.faults.size();
 }
 
@@ -75,6 +96,7 @@ void collectEvents(WorldState& world) {
     EventLog& log = world.events;
     if (log.level == EventLevel::none) return;
     collectContacts(world);
+    collectSensed(world);
     collectSleep(world);
     for (std::size_t i = log.faults_before; i < world.faults.size(); ++i) {
         log.events.push_back({.kind = EventKind::frozen, .a = world.faults[i].body});

@@ -8,9 +8,9 @@ namespace cairn {
 /// Notes what the world is like before the step, since the stages overwrite it.
 void beginEvents(WorldState& world);
 
-/// Fills the events of the step: contacts by their pair, then bodies that woke and those that fell asleep, each in
-/// ascending order of ids, then faults in the order in which they were noted. @pre the stages have run, the reasons of
-/// waking are not cleared yet
+/// Fills the events of the step: contacts by their pair, then what sensors hold, then bodies that woke and those that
+/// fell asleep, each in ascending order of ids, then faults in the order in which they were noted. @pre the stages have
+/// run, the reasons of waking are not cleared yet
 void collectEvents(WorldState& world);
 
 }  // namespace cairn

@@ -24,6 +24,7 @@ std::shared_ptr<const LastingPart> lastingPartOf(const WorldState& world) {
     auto part = std::make_shared<LastingPart>();
     part->materials = world.materials;
     copyFields(Change::calls, world.bodies, part->bodies);
+    part->filter = world.bodies.filter;
     part->next_number = world.bodies.nextNumber();
     return part;
 }
@@ -38,6 +39,7 @@ void keepMoment(WorldState& world, MomentState& moment) {
     sharedNames(moment) = sharedNames(world);
     moment.contact_generation = world.data.generation;
     moment.contacts = world.data.contacts;
+    moment.sensed = world.data.sensed;
     moment.batches = world.data.batches;
     moment.event_level = world.events.level;
     moment.events = world.events.events;
@@ -49,6 +51,7 @@ void loadMoment(const MomentState& moment, WorldState& world) {
         world.materials = moment.lasting->materials;
         copyFields(Change::calls, moment.lasting->bodies, world.bodies);
         world.bodies.linear_step.assign(world.bodies.slots(), Vec3::Zero());
+        world.bodies.filter = moment.lasting->filter;
         world.bodies.adoptSlots(moment.lasting->next_number);
         world.lasting = moment.lasting;
     }
@@ -56,6 +59,7 @@ void loadMoment(const MomentState& moment, WorldState& world) {
     sharedNames(world) = sharedNames(moment);
     world.data.generation = moment.contact_generation;
     world.data.contacts = moment.contacts;
+    world.data.sensed = moment.sensed;
     world.data.batches = moment.batches;
     world.events.level = moment.event_level;
     world.events.events = moment.events;

@@ -14,6 +14,7 @@ namespace cairn {
 struct LastingPart {
     MaterialTable materials;
     BodyArrays bodies;  ///< the fields that calls change; the others are empty
+    PairFilter filter;
     std::uint64_t next_number = 0;
 };
 
@@ -29,6 +30,7 @@ struct MomentState {
     double time = 0, time_at_start = 0;
     std::vector<std::uint32_t> contact_generation;  ///< StepData::generation
     std::vector<Contact> contacts;
+    std::vector<Sensed> sensed;
     Batches batches;
     Statistics statistics;
     std::vector<FaultInfo> faults;

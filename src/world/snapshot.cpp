@@ -7,8 +7,10 @@
 #include <cmath>
 
 #include "math/rotation.h"
+#include "world/limits.h"
 #include "world/quarantine.h"
 #include "world/saved_fields.h"
+#include "world/saved_filter.h"
 
 namespace cairn {
 
@@ -111,6 +113,13 @@ void checkBody(const ByteReader& in, const BodyStorage& b, BodyIndex i, std::siz
     if (!b.p_BS[i].allFinite() || !(std::abs(b.R_BS[i].coeffs().squaredNorm() - 1) < 1e-6)) {
         in.refuse(fmt::format("body {} whose shape has no pose", i));
     }
+    try {
+        requireGravityFactor(b.gravity_factor[i]);
+        requireDamping(b.linear_damping[i], "linear");
+        requireDamping(b.angular_damping[i], "angular");
+    } catch (const InputError& error) {
+        in.refuse(error.what());
+    }
     if (b.kind[i] != BodyKind::dynamic) return;
     if (isInfinite(b.shape[i])) in.refuse(fmt::format("body {} that is infinite and moves", i));
     const bool heavy =
@@ -158,7 +167,8 @@ void loadBodies(ByteReader& in, std::size_t materials, BodyStorage& b) {
     bodyFields(in, b, slots);
     if (std::ranges::any_of(b.kind, [](BodyKind kind) { return kind > BodyKind::dynamic; }) ||
         std::ranges::any_of(b.woken, [](WakeReason reason) { return reason > WakeReason::floating; }) ||
-        std::ranges::any_of(b.asleep, [](std::uint8_t asleep) { return asleep > 1; })) {
+        std::ranges::any_of(b.asleep, [](std::uint8_t asleep) { return asleep > 1; }) ||
+        std::ranges::any_of(b.sensor, [](std::uint8_t sensor) { return sensor > 1; })) {
         in.refuse("an unknown state of a body");
     }
     checkNumbers(in, {b.number.begin(), b.number.end()}, next_number);
@@ -270,7 +280,7 @@ void loadEvents(ByteReader& in, EventLog& log) {
     for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
         Event& event = log.events.emplace_back();
         eventFields(in, event);
-        if (event.kind > EventKind::joint_broke || event.reason > WakeReason::floating) in.refuse("an unknown event");
+        if (event.kind > EventKind::sensor_left || event.reason > WakeReason::floating) in.refuse("an unknown event");
     }
 }
 
@@ -293,11 +303,13 @@ void saveWorld(const WorldState& world, ByteWriter& out) {
     saveMaterials(world.materials, out);
     worldFields(out, world);
     saveBodies(world.bodies, out);
+    saveFilter(world.bodies.filter, out);
     saveList(out, world.springs, [&](const Spring& spring) { springFields(out, spring); });
     saveList(out, world.joints, [&](const Joint& joint) { jointFields(out, joint); });
     out.putArray(std::span(world.data.generation));
     saveList(out, world.data.contacts, [&](const Contact& contact) { contactFields(out, contact); });
     batchArrays(out, world.data.batches);
+    saveSensed(world.data.sensed, out);
     statisticsFields(out, world.statistics);
     saveFaults(world.faults, out);
     out.put(world.events.level);
@@ -310,9 +322,11 @@ std::unique_ptr<WorldState> loadWorld(ByteReader& in) {
     loadMaterials(in, world->materials);
     worldFields(in, *world);
     loadBodies(in, world->materials.all().size(), world->bodies);
+    loadFilter(in, world->bodies);
     loadSprings(in, world->bodies, world->springs);
     loadJoints(in, world->bodies, world->joints);
     loadContacts(in, world->data);
+    loadSensed(in, world->data.sensed);
     statisticsFields(in, world->statistics);
     loadFaults(in, world->faults);
     loadEvents(in, world->events);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "integration/damping.h"
 #include "integration/integration.h"
 #include "pairs/warm_start.h"
 #include "sleeping/sleeping.h"
@@ -9,6 +10,7 @@
 #include "world/events.h"
 #include "world/joints.h"
 #include "world/quarantine.h"
+#include "world/sensors.h"
 #include "world/totals.h"
 #include "world/world_state.h"
 
@@ -153,6 +155,9 @@ void velocityStage(WorldState& world) {
     advanceVelocities(world.bodies, acceleration, world.settings.gravity_damping, world.settings.timeStep(),
                       world.executor, exact ? std::optional(world.steps) : std::nullopt);
     applySprings(world.springs, world.bodies, world.settings.timeStep());
+    measureIfAsked(world, Measured::forces);
+    dampVelocities(world.bodies, world.settings.timeStep(), world.executor);
+    measureIfAsked(world, Measured::damping);
     quarantine(world);
     if (exact) noteForced(world.bodies, world.executor, data.before);
     if (touching) {
@@ -198,13 +203,28 @@ void resolveStage(WorldState& world) {
     measureIfAsked(world, Measured::completion);
 }
 
+/// Bodies that do not fall asleep one by one: jointed ones do it together, and those that gravity does not pull down
+/// never do, since stopping them when they are slow would take their momentum.
+std::span<const std::uint8_t> listNotSleeping(WorldState& world) {
+    StepData& data = world.data;
+    const auto floats = [](double factor) { return !(factor > 0); };
+    if (std::ranges::none_of(world.bodies.gravity_factor, floats)) return data.jointed;
+    data.not_sleeping = data.jointed;
+    data.not_sleeping.resize(world.bodies.slots(), 0);
+    for (std::size_t i = 0; i < data.not_sleeping.size(); ++i) {
+        if (floats(world.bodies.gravity_factor[i])) data.not_sleeping[i] = 1;
+    }
+    return data.not_sleeping;
+}
+
 void sleepStage(WorldState& world) {
     // In zero gravity nothing rests: a slow body that was stopped would lose its momentum.
     const bool weightless = (world.gravity + world.global_acceleration).isZero(0);
     if (!world.settings.sleep.sleeping || weightless) return;
     BodyStorage& b = world.bodies;
-    fallAsleep(b.state(), {b.motion, b.r_max, b.constant_force, b.constant_torque, world.data.jointed},
-               world.settings.sleep, world.settings.timeStep(), world.executor);
+    const std::span<const std::uint8_t> others = listNotSleeping(world);
+    fallAsleep(b.state(), {b.motion, b.r_max, b.constant_force, b.constant_torque, others}, world.settings.sleep,
+               world.settings.timeStep(), world.executor);
     letJointedSleep(world);
 }
 
@@ -244,12 +264,12 @@ void stepWorld(WorldState& world) {
         world.data.pairs.beginStep(world.bodies, world.data.generation, world.executor);
         beginContacts(world.data.contacts, warmStart(world), world.executor);
         detect(world);
+        findSensed(world);
     });
     timed(statistics, Stage::batches, [&] { buildBatchesStage(world); });
     timed(statistics, Stage::correction, [&] { correctStage(world); });
     measureIfAsked(world, Measured::correction);
     timed(statistics, Stage::velocities, [&] { velocityStage(world); });
-    measureIfAsked(world, Measured::forces);
     // Asked before a driven joint may break in this very step.
     const bool weighed = world.checks == Checks::on && mustKeepEnergy(world);
     const double energy = weighed ? kineticEnergyOf(world.bodies) : 0;

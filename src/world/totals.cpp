@@ -26,7 +26,7 @@ double kineticEnergyOf(const BodyStorage& b) {
 
 double potentialEnergyOf(const BodyStorage& b, const Vec3& acceleration) {
     double energy = 0;
-    forDynamic(b, [&](BodyIndex i) { energy -= b.mass[i] * acceleration.dot(b.position[i]); });
+    forDynamic(b, [&](BodyIndex i) { energy -= b.gravity_factor[i] * b.mass[i] * acceleration.dot(b.position[i]); });
     return energy;
 }
 

@@ -6,6 +6,7 @@
 #include "cairn/world.h"
 #include "geometry/body_mass.h"
 #include "sleeping/sleeping.h"
+#include "world/limits.h"
 #include "world/quarantine.h"
 #include "world/world_state.h"
 
@@ -88,6 +89,9 @@ void validateDescription(const BodyDescription& d, const MaterialTable& material
     if (isInfinite(d.shape) && !d.fixed) {
         throw InputError(fmt::format("a {} has no mass and must be fixed", shapeName(d.shape)));
     }
+    requireGravityFactor(d.gravity_factor);
+    requireDamping(d.linear_damping, "linear");
+    requireDamping(d.angular_damping, "angular");
     const bool moves = !d.linear_velocity.isZero(0) || !d.angular_velocity.isZero(0);
     if (d.fixed && moves) throw InputError("a fixed body has no velocity; leave its velocities zero");
     if (d.asleep && moves) throw InputError("a sleeping body has no velocity; leave its velocities zero");
@@ -147,6 +151,7 @@ BodyId World::addBody(const BodyDescription& d) {
     validateDescription(d, w.materials);
     const Quat orientation = requireRotation(d.pose.orientation);
     BodyStorage& b = w.bodies;
+    const std::uint64_t groups = b.filter.maskOf(d.groups);
     if (b.count() >= static_cast<std::size_t>(w.settings.limits.body_limit)) {
         throw InputError(
             fmt::format("a body too many: the setting body_limit allows {}; raise it or remove bodies first",
@@ -171,6 +176,12 @@ BodyId World::addBody(const BodyDescription& d) {
     b.asleep[i] = d.asleep && !d.fixed ? 1 : 0;
     const double threshold = w.settings.sleep.sleep_threshold;
     b.motion[i] = b.asleep[i] != 0 ? threshold * threshold : initialMotion(w.settings.sleep);
+    b.groups[i] = groups;
+    b.sensor[i] = d.sensor ? 1 : 0;
+    b.gravity_factor[i] = d.gravity_factor;
+    b.linear_damping[i] = d.linear_damping;
+    b.angular_damping[i] = d.angular_damping;
+    b.user_data[i] = d.user_data;
     b.updateMassProperties(i);
     return b.idOf(i);
 }

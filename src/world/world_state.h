@@ -64,6 +64,8 @@ struct StepData {
     JointGroups joint_groups;             ///< events: joints connected by bodies that can move
     std::vector<std::uint8_t> jointed;    ///< events: [slots] 1 = has a joint; empty without joints
     std::vector<BodyPair> excluded;       ///< events: pairs that joints keep from touching, sorted
+    std::vector<Sensed> sensed;           ///< detection: by sensor and body
+    std::vector<std::uint8_t> not_sleeping;           ///< sleeping: [slots] 1 = does not fall asleep by itself
     std::vector<JointBlock> joint_blocks;             ///< resolution: batch after batch, in it group after group
     std::vector<std::uint32_t> joint_begin;           ///< resolution: [batches + 1] offsets into joint_blocks
     std::vector<std::uint32_t> joint_cursor;          ///< resolution: kept memory
@@ -86,6 +88,7 @@ struct TraceData {
 struct EventLog {
     EventLevel level = EventLevel::none;
     std::vector<Event> events;
+    std::vector<Sensed> sensed_before;        ///< by sensor and body, at the beginning of the step
     std::vector<std::uint8_t> asleep_before;  ///< [slots] at the beginning of the step
     std::size_t faults_before = 0;            ///< at the beginning of the step
 };

@@ -50,6 +50,10 @@ World worldOfEverything() {
     const auto add = [&](const Shape& shape, MaterialId material, const Vec3& place) {
         return world.addBody({.shape = shape, .material = material, .pose = {place, Quat::Identity()}});
     };
+    const GroupId stones = world.addGroup("stones");
+    const GroupId dust = world.addGroup("dust");
+    world.setGroupsTouch(stones, dust, Touch::never);
+    world.addBody({.shape = Box{Vec3(1, 1, 1)}, .material = oak, .fixed = true, .groups = {dust}, .sensor = true});
     const BodyId ball = add(Sphere{0.1}, steel, Vec3(0, 0, 0.1));
     const BodyId box = add(Box{Vec3(0.2, 0.3, 0.1)}, oak, Vec3(1, 0, 0.05));
     add(Capsule{0.05, 0.2}, oak, Vec3(1, 0, 0.15));
