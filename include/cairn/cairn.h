@@ -5,6 +5,7 @@
 #include "cairn/events.h"
 #include "cairn/filter.h"
 #include "cairn/material.h"
+#include "cairn/motion.h"
 #include "cairn/query.h"
 #include "cairn/recording.h"
 #include "cairn/scene.h"

@@ -37,6 +37,9 @@ struct SceneBody {
     double linear_damping = 0;   ///< [1/s]
     double angular_damping = 0;  ///< [1/s]
     std::uint64_t user_data = 0;
+    std::optional<Motion> motion;          ///< with it the body is fixed
+    Vec3 pivot = Vec3::Zero();             ///< of the motion [m, frame of the shape]
+    Vec3 surface_velocity = Vec3::Zero();  ///< [m/s, frame of the shape]
 };
 
 /// An exception of two bodies of a scene from what their groups say.
@@ -121,6 +124,7 @@ struct Scene {
     PairProperties default_pair;
     std::vector<std::pair<std::pair<std::string, std::string>, PairProperties>> pairs;
     SceneFilters filters;
+    std::optional<Motion> frame_motion;  ///< as World::setFrameMotion()
     std::vector<SceneBody> bodies;
     std::vector<SceneSpring> springs;
     std::vector<SceneJoint> joints;

@@ -13,6 +13,7 @@
 #include "cairn/filter.h"
 #include "cairn/joint.h"
 #include "cairn/material.h"
+#include "cairn/motion.h"
 #include "cairn/query.h"
 #include "cairn/settings.h"
 #include "cairn/shape.h"
@@ -41,6 +42,9 @@ struct BodyDescription {
     double linear_damping = 0;             ///< rate at which the linear velocity decays [1/s], 0 to 1e6
     double angular_damping = 0;            ///< rate at which the angular velocity decays [1/s], 0 to 1e6
     std::uint64_t user_data = 0;           ///< the user's own, kept in snapshots
+    std::optional<Motion> motion{};        ///< of a fixed body: as World::setMotion()
+    Vec3 pivot = Vec3::Zero();             ///< of the motion [m, frame of the shape]
+    Vec3 surface_velocity = Vec3::Zero();  ///< of a fixed body: as World::setSurfaceVelocity()
 };
 
 /// A damped spring between two points. @source pe engine's springs, by behaviour
@@ -203,6 +207,23 @@ class World {
     /// Who was inside which sensor in the last step, by sensor and body: bodies that are no sensors, that its groups
     /// touch, and of which one or the sensor can move.
     std::span<const Sensed> sensed() const;
+
+    // --- motion by a law ---
+    /// Moves a fixed body by a law from now on, in place of an earlier one. It pushes and carries what it touches like
+    /// a body of infinite mass; Diagnostics::energy_drives is its work. @param pivot about which it turns [m, frame of
+    /// the shape] @throws StaleIdError, InputError for a dynamic or jointed body or a law out of range
+    void setMotion(BodyId id, const Motion& motion, const Vec3& pivot = Vec3::Zero());
+    void stopMotion(BodyId id);                     ///< it stays where it is @throws StaleIdError
+    std::optional<Motion> motion(BodyId id) const;  ///< @throws StaleIdError
+    /// Lets the surface of a fixed body run over it, like a belt: what touches it is dragged along the surface as if
+    /// the body moved, which it does not. @param velocity [m/s, frame of the shape] @throws StaleIdError, InputError
+    void setSurfaceVelocity(BodyId id, const Vec3& velocity);
+    Vec3 surfaceVelocity(BodyId id) const;  ///< [m/s, frame of the shape] @throws StaleIdError
+    /// Lets the frame of the world move by a law from now on: all bodies feel the opposite of its acceleration, as
+    /// those on a shaken ground do whose places are measured on that ground. None = it rests. A world whose ground
+    /// moves gives the same motion. @throws InputError for a law out of range or one that turns
+    void setFrameMotion(const std::optional<Motion>& motion);
+    std::optional<Motion> frameMotion() const;  ///< none = it rests
 
     // --- springs ---
     /// @throws InputError, StaleIdError

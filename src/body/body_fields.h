@@ -56,6 +56,7 @@ struct BodyArrays {
     FieldArray<std::uint8_t> sensor;    ///< 1 = reports who is inside and touches nobody
     FieldArray<double> gravity_factor;  ///< of the global accelerations that it feels
     FieldArray<double> linear_damping, angular_damping;  ///< rates at which its velocities decay [1/s]
+    FieldArray<Vec3> surface_velocity;                   ///< of a fixed body [m/s, frame of the shape]
     FieldArray<std::uint64_t> user_data;                 ///< the user's own
 };
 
@@ -147,6 +148,7 @@ inline constexpr auto body_fields = std::tuple{
     BodyField{&BodyArrays::gravity_factor, "gravity_factor", "1", Change::calls, Sync::on_creation, [] { return 1.0; }},
     BodyField{&BodyArrays::linear_damping, "linear_damping", "1/s", Change::calls, Sync::on_creation},
     BodyField{&BodyArrays::angular_damping, "angular_damping", "1/s", Change::calls, Sync::on_creation},
+    BodyField{&BodyArrays::surface_velocity, "surface_velocity", "m/s", Change::calls, Sync::on_creation},
     BodyField{&BodyArrays::user_data, "user_data", "", Change::calls, Sync::on_migration},
 };
 

@@ -14,21 +14,13 @@ namespace cairn {
 /// The state of bodies that the response reads and writes; knows nothing of shapes. All spans have one entry per slot.
 struct BodyState {
     std::span<const BodyKind> kind;
-    std::span<Vec3> position;            ///< centre of mass [m, W]
-    std::span<Quat> orientation;         ///< B to W
-    std::span<Vec3> v;                   ///< [m/s, W]
-    std::span<Vec3> w;                   ///< [rad/s, W]
-    std::span<const double> mass_inv;    ///< [1/kg]; 0 for fixed bodies
-    std::span<const Vec3> inertiaInv_B;  ///< [1/(kg·m²), B]; 0 for fixed bodies
-    std::span<Mat3> inertiaInv_W;        ///< [1/(kg·m²), W]; 0 for fixed bodies
-    std::span<const Vec3> linear_step;   ///< ℓ: displacement by the linear velocity in this time step [m, W]
-    std::span<std::uint8_t> asleep;      ///< 1 = asleep
-    std::span<WakeReason> woken;         ///< why it woke in this step
     std::span<Vec3> position;                  ///< centre of mass [m, W]
+    std::span<Quat> orientation;               ///< B to W
     std::span<Vec3> v;                         ///< [m/s, W]
     std::span<Vec3> w;                         ///< [rad/s, W]
     std::span<const double> mass_inv;          ///< [1/kg]; 0 for fixed bodies
-    std::span<const Mat3> inertiaInv_W;        ///< [1/(kg·m²), W]; 0 for fixed bodies
+    std::span<const Vec3> inertiaInv_B;        ///< [1/(kg·m²), B]; 0 for fixed bodies
+    std::span<Mat3> inertiaInv_W;              ///< [1/(kg·m²), W]; 0 for fixed bodies
     std::span<const Vec3> linear_step;         ///< ℓ: displacement by the linear velocity in this time step [m, W]
     std::span<std::uint8_t> asleep;            ///< 1 = asleep
     std::span<WakeReason> woken;               ///< why it woke in this step
@@ -40,10 +32,17 @@ struct BodyState {
     double time_step = 0;
     /// What gravity gives a body at rest in this time step [m/s, W].
     Vec3 fall = Vec3::Zero();
+    /// How the surfaces of fixed bodies move over them [slots] [m/s, W]; empty = none does.
+    std::span<const Vec3> surface{};
     /// Subset of the shock propagation; empty unless the step is traced.
     std::span<std::int32_t> shock_stage{};
 
     std::size_t size() const { return kind.size(); }
+    /// Of a body's surface over the body, where it has a normal [m/s, W].
+    Vec3 surfaceVelocity(BodyIndex i, const Vec3& normal) const {
+        if (surface.empty()) return Vec3::Zero();
+        return surface[i] - normal.dot(surface[i]) * normal;
+    }
     double gravityFactor(BodyIndex i) const { return gravity_factor.empty() ? 1.0 : gravity_factor[i]; }
     bool isFixed(BodyIndex i) const { return kind[i] != BodyKind::dynamic; }
     /// Wakes a body if it sleeps, keeping the first reason of the step.

@@ -19,7 +19,7 @@ struct BodyMotion {
 };
 
 inline bool isAtRest(const BodyState& bodies, BodyIndex i) {
-    return bodies.v[i].isZero(0) && bodies.w[i].isZero(0);
+    return bodies.v[i].isZero(0) && bodies.w[i].isZero(0) && (bodies.surface.empty() || bodies.surface[i].isZero(0));
 }
 
 /// @param motion out, one entry per body; keeps its memory
@@ -31,7 +31,8 @@ inline void noteMotion(std::span<const BodyIndex> noted, const BodyState& bodies
 /// ϑA − ϑB [m/s, W]. @source thesis (3.4.1)
 inline Vec3 relativeVelocity(const Contact& contact, const BodyState& bodies) {
     const auto at = [&](BodyIndex i) -> Vec3 {
-        return bodies.v[i] + bodies.w[i].cross(contact.point - bodies.position[i]);
+        return bodies.v[i] + bodies.w[i].cross(contact.point - bodies.position[i]) +
+               bodies.surfaceVelocity(i, contact.normal);
     };
     return at(contact.a) - at(contact.b);
 }

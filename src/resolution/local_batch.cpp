@@ -29,6 +29,14 @@ std::uint32_t LocalBatch::localIndex(BodyIndex slot, const BodyState& state) {
     return local;
 }
 
+/// A fixed body whose surface moves is another one in each contact: its velocity there is along the surface.
+std::uint32_t LocalBatch::localEnd(const Contact& contact, BodyIndex slot, const BodyState& state) {
+    if (state.surface.empty() || state.surface[slot].isZero(0)) return localIndex(slot, state);
+    bodies.push_back(copyOf(slot, state));
+    bodies.back().v += state.surfaceVelocity(slot, contact.normal);
+    return static_cast<std::uint32_t>(bodies.size() - 1);
+}
+
 void LocalBatch::gatherBodies(const BatchView& batch, std::span<const Contact> all_contacts, const BodyState& state) {
     if (local_of_slot_.size() < state.size()) local_of_slot_.resize(state.size(), not_in_batch);
     bodies.clear();
@@ -38,8 +46,8 @@ void LocalBatch::gatherBodies(const BatchView& batch, std::span<const Contact> a
     ends.resize(batch.contacts.size());
     for (std::size_t i = 0; i < ends.size(); ++i) {
         const Contact& contact = all_contacts[batch.contacts[i]];
-        ends[i].a = localIndex(contact.a, state);
-        ends[i].b = localIndex(contact.b, state);
+        ends[i].a = localEnd(contact, contact.a, state);
+        ends[i].b = localEnd(contact, contact.b, state);
     }
     for (const LocalBody& body : bodies) local_of_slot_[body.slot] = not_in_batch;
     // Bodies that sleep on may be left out of a batch.

@@ -102,6 +102,7 @@ class LocalBatch {
     void build(std::uint32_t contact);
     void buildFrame(std::uint32_t contact);
     void updateRolling(const ContactFrame& c);
+    std::uint32_t localEnd(const Contact& contact, BodyIndex slot, const BodyState& state);
     std::uint32_t localIndex(BodyIndex slot, const BodyState& state);
 
     std::span<const std::uint32_t> source_contacts_;  ///< [contacts] index in source_

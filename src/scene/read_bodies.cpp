@@ -131,9 +131,11 @@ void readOwnProperties(const JsonNode& node, const SceneReading& reading, SceneB
 }
 
 SceneBody readBody(const JsonNode& node, const SceneReading& reading) {
-    node.expectKeys({"shape", "material", "name", "mass", "centre_of_mass", "inertia", "position", "orientation",
-                     "linear_velocity", "angular_velocity", "fixed", "asleep", "groups", "sensor", "gravity_factor",
-                     "linear_damping", "angular_damping", "user_data"});
+    node.expectKeys({"shape",           "material",         "name",           "mass",
+                     "centre_of_mass",  "inertia",          "position",       "orientation",
+                     "linear_velocity", "angular_velocity", "fixed",          "asleep",
+                     "groups",          "sensor",           "gravity_factor", "linear_damping",
+                     "angular_damping", "user_data",        "motion",         "surface_velocity"});
     SceneBody body;
     body.shape = readShape(node.required("shape", "an object"));
     const JsonNode material = node.required("material", "the name of a material");
@@ -152,6 +154,15 @@ SceneBody readBody(const JsonNode& node, const SceneReading& reading) {
     if (const auto value = node.find("fixed")) body.fixed = value->flag();
     if (const auto value = node.find("asleep")) body.asleep = value->flag();
     readOwnProperties(node, reading, body);
+    if (const auto value = node.find("surface_velocity")) {
+        body.surface_velocity = value->vector();
+        if (!body.fixed) value->fail("is that of a body that forces move; only the surface of a fixed body runs");
+    }
+    if (const auto value = node.find("motion")) {
+        body.motion = readMotion(*value);
+        if (const auto pivot = value->find("pivot")) body.pivot = pivot->vector();
+        if (!body.fixed) value->fail("is that of a body that forces move; a body with a motion needs \"fixed\": true");
+    }
     checkBody(node, body, reading);
     return body;
 }

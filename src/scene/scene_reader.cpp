@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "integration/motion_curve.h"
 #include "scene/scene_reading.h"
 
 namespace cairn {
@@ -48,13 +49,20 @@ void readSettings(const JsonNode& node, Scene& scene) {
     }
 }
 
+void readFrameMotion(const JsonNode& node, Scene& scene) {
+    scene.frame_motion = readMotion(node);
+    if (node.find("pivot")) node.fail("has a pivot; a frame does not turn, remove it");
+    if (MotionCurve(*scene.frame_motion).turns())
+        node.fail("turns; the frame of a scene does not, remove spin or turns");
+}
+
 }  // namespace
 
 Scene parseScene(std::string_view json, std::string_view source) {
     const Json document = parseJson(json, source);
     const JsonNode root(document, source);
-    root.expectKeys({"name", "duration", "gravity", "events", "materials", "contacts", "filters", "bodies", "springs",
-                     "joints", "settings"});
+    root.expectKeys({"name", "duration", "gravity", "events", "materials", "contacts", "filters", "frame_motion",
+                     "bodies", "springs", "joints", "settings"});
     SceneReading reading;
     Scene& scene = reading.scene;
     scene.name = root.required("name", "a text that is not empty").text();
@@ -66,6 +74,7 @@ Scene parseScene(std::string_view json, std::string_view source) {
     if (filters) readGroups(*filters, reading);
     readBodies(root.required("bodies", "an array of bodies; it may be empty"), reading);
     if (filters) readFilterExceptions(*filters, reading);
+    if (const auto node = root.find("frame_motion")) readFrameMotion(*node, scene);
     if (const auto node = root.find("events")) readEvents(*node, reading);
     if (const auto node = root.find("springs")) readSprings(*node, reading);
     if (const auto node = root.find("joints")) readJoints(*node, reading);

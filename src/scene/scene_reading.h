@@ -32,6 +32,8 @@ void readJoints(const JsonNode& node, SceneReading& reading);
 /// @throws InputError
 Shape readShape(const JsonNode& node);
 Quat readOrientation(const JsonNode& node);
+/// A law of motion of a body or frame.
+Motion readMotion(const JsonNode& node);
 /// The name of a group that the scene has.
 std::string readGroup(const JsonNode& node, const SceneReading& reading);
 /// The index of a body that is given by index or name.

@@ -114,6 +114,9 @@ BodyDescription describe(const SceneBody& body, const MaterialIds& materials, co
     description.linear_damping = body.linear_damping;
     description.angular_damping = body.angular_damping;
     description.user_data = body.user_data;
+    description.motion = body.motion;
+    description.pivot = body.pivot;
+    description.surface_velocity = body.surface_velocity;
     return description;
 }
 
@@ -191,6 +194,7 @@ SceneRun::SceneRun(const Scene& scene, const Settings& settings) : scene_(scene)
         inContext(bodyTitle(scene_, i),
                   [&] { ids_.push_back(world_.addBody(describe(scene_.bodies[i], materials, groups))); });
     }
+    inContext("frame_motion", [&] { world_.setFrameMotion(scene_.frame_motion); });
     for (const SceneException& exception : scene_.filters.exceptions) {
         inContext("filters",
                   [&] { world_.setPairTouch(bodyId(ids_, exception.a), bodyId(ids_, exception.b), exception.touch); });

@@ -109,7 +109,40 @@ std::string namesText(const std::vector<std::string>& names) {
     return "[" + out + "]";
 }
 
-/// Groups and what a body feels of its own.
+template <class Values, class Format>
+std::string arrayText(const Values& values, const Format& format) {
+    std::string out = "[";
+    for (const auto& value : values) {
+        if (out.size() > 1) out += ',';
+        out += format(value);
+    }
+    return out + "]";
+}
+
+std::string lawText(const ConstantMotion& motion) {
+    return fmt::format(R"("constant","velocity":{},"spin":{})", vector(motion.velocity), vector(motion.spin));
+}
+std::string lawText(const SineMotion& motion) {
+    return fmt::format(R"("sine","amplitude":{},"turn":{},"frequency":{},"phase":{})", vector(motion.amplitude),
+                       vector(motion.turn), number(motion.frequency), number(motion.phase));
+}
+std::string lawText(const TableMotion& motion) {
+    std::string out = fmt::format(R"("table","times":{})", arrayText(motion.times, number));
+    if (!motion.displacements.empty())
+        out += fmt::format(R"(,"displacements":{})", arrayText(motion.displacements, vector));
+    if (!motion.turns.empty()) out += fmt::format(R"(,"turns":{})", arrayText(motion.turns, vector));
+    if (!motion.velocities.empty()) out += fmt::format(R"(,"velocities":{})", arrayText(motion.velocities, vector));
+    if (motion.end == TableEnd::repeat) out += R"(,"end":"repeat")";
+    return out;
+}
+
+std::string motionText(const Motion& motion, const Vec3& pivot) {
+    std::string out = fmt::format(R"({{"type":{})", std::visit([](const auto& law) { return lawText(law); }, motion));
+    if (!isOmitted(pivot)) out += fmt::format(R"(,"pivot":{})", vector(pivot));
+    return out + "}";
+}
+
+/// Groups, a motion and what a body feels of its own.
 std::string ownText(const SceneBody& body) {
     std::string out;
     if (!body.groups.empty()) out += fmt::format(R"(,"groups":{})", namesText(body.groups));
@@ -117,6 +150,10 @@ std::string ownText(const SceneBody& body) {
     if (!same(body.gravity_factor, 1)) out += fmt::format(R"(,"gravity_factor":{})", number(body.gravity_factor));
     if (!same(body.linear_damping, 0)) out += fmt::format(R"(,"linear_damping":{})", number(body.linear_damping));
     if (!same(body.angular_damping, 0)) out += fmt::format(R"(,"angular_damping":{})", number(body.angular_damping));
+    if (body.motion) out += fmt::format(R"(,"motion":{})", motionText(*body.motion, body.pivot));
+    if (!isOmitted(body.surface_velocity)) {
+        out += fmt::format(R"(,"surface_velocity":{})", vector(body.surface_velocity));
+    }
     if (body.user_data != 0) out += fmt::format(R"(,"user_data":{})", body.user_data);
     return out;
 }
@@ -305,6 +342,9 @@ std::string formatScene(const Scene& scene) {
     if (!scene.events.empty()) out += fmt::format("\"events\":{},\n", eventsText(scene));
     out += fmt::format("\"materials\":{},\n\"contacts\":{},\n", materialsText(scene), contactsText(scene));
     if (!scene.filters.isEmpty()) out += fmt::format("\"filters\":{},\n", filtersText(scene.filters));
+    if (scene.frame_motion) {
+        out += fmt::format("\"frame_motion\":{},\n", motionText(*scene.frame_motion, Vec3::Zero()));
+    }
     out += fmt::format("\"bodies\":{}", lines(scene.bodies, bodyText));
     if (!scene.springs.empty()) out += fmt::format(",\n\"springs\":{}", lines(scene.springs, springText));
     if (!scene.joints.empty()) out += fmt::format(",\n\"joints\":{}", lines(scene.joints, jointText));

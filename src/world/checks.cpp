@@ -8,6 +8,7 @@
 #include "math/rotation.h"
 #include "resolution/batch_motion.h"
 #include "world/joints.h"
+#include "world/motions.h"
 #include "world/totals.h"
 
 namespace cairn {
@@ -53,7 +54,8 @@ void checkBody(const WorldState& world, BodyIndex i) {
     }
     if (b.kind[i] == BodyKind::dynamic) checkInertia(world, i);
     const bool still = b.v[i].isZero(0) && b.w[i].isZero(0);
-    if (!still && (b.kind[i] == BodyKind::fixed || b.asleep[i] != 0)) {
+    const bool may_move = b.kind[i] == BodyKind::dynamic || lawOf(world, i) != nullptr;
+    if (!still && (!may_move || b.asleep[i] != 0)) {
         failBody(world, i, b.kind[i] == BodyKind::fixed ? "is fixed but moves" : "sleeps but moves");
     }
 }
@@ -116,7 +118,7 @@ void checkBatches(const WorldState& world) {
 }
 
 bool mustKeepEnergy(WorldState& world) {
-    if (hasMotors(world)) return false;
+    if (hasMotors(world) || isDrivenByLaws(world)) return false;
     const ResolutionSettings& settings = world.settings.resolution;
     const bool bounded = settings.resolution == ResolutionKind::accelerated_sweeps;
     if (bounded || settings.restitution_law != RestitutionLaw::newton) return true;

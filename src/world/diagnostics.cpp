@@ -24,7 +24,7 @@ double& component(Diagnostics& d) {
     return (d.*Member)[Axis];
 }
 
-constexpr std::array<DiagnosticsField, 33> diagnostics_fields = {{
+constexpr std::array<DiagnosticsField, 34> diagnostics_fields = {{
     {"momentum_x", "N·s", Fold::newest, component<&Diagnostics::momentum, 0>},
     {"momentum_y", "N·s", Fold::newest, component<&Diagnostics::momentum, 1>},
     {"momentum_z", "N·s", Fold::newest, component<&Diagnostics::momentum, 2>},
@@ -52,6 +52,7 @@ constexpr std::array<DiagnosticsField, 33> diagnostics_fields = {{
     {"energy_friction", "J", Fold::sum, scalar<&Diagnostics::energy_friction>},
     {"energy_restitution", "J", Fold::sum, scalar<&Diagnostics::energy_restitution>},
     {"energy_joints", "J", Fold::sum, scalar<&Diagnostics::energy_joints>},
+    {"energy_drives", "J", Fold::sum, scalar<&Diagnostics::energy_drives>},
     {"energy_correction", "J", Fold::sum, scalar<&Diagnostics::energy_correction>},
     {"energy_sleep", "J", Fold::sum, scalar<&Diagnostics::energy_sleep>},
     {"energy_error", "J", Fold::sum, scalar<&Diagnostics::energy_error>},
@@ -79,17 +80,21 @@ void accountForces(WorldState& world, double change) {
     const Vec3 step = accelerationOf(world) * world.settings.timeStep();
     double gravity = 0;
     double damped = 0;
+    double driven = 0;
+    const Vec3 frame_step = world.frame_acceleration * world.settings.timeStep();
     for (BodyIndex i = 0; i < b.slots(); ++i) {
         if (b.kind[i] != BodyKind::dynamic || b.asleep[i] != 0) continue;
         const double work = b.gravity_factor[i] * b.mass[i] * step.dot(0.5 * (data.v[i] + b.v[i]));
         gravity += work;
+        driven += b.mass[i] * frame_step.dot(0.5 * (data.v[i] + b.v[i]));
         const bool slow =
             squaredMotion(data.v[i], data.w[i], b.r_max[i]) < damping.damping_threshold * damping.damping_threshold;
         if (slow) damped -= damping.damping * work;
     }
     d.energy_flight += gravity;
     d.energy_damping += damped;
-    d.energy_forces += change - gravity - damped;
+    d.energy_drives += driven;
+    d.energy_forces += change - gravity - damped - driven;
 }
 
 /// What a contact did, in its coordinates.
@@ -100,14 +105,22 @@ struct ContactWork {
     double turning;  ///< work of its angular impulse [J]
 };
 
+/// Of a body's surface over the body at a contact [m/s, W].
+Vec3 surfaceVelocity(const WorldState& world, const Contact& c, BodyIndex body) {
+    if (world.data.surface.empty()) return Vec3::Zero();
+    const Vec3& surface = world.data.surface[body];
+    return surface - c.normal.dot(surface) * c.normal;
+}
+
 ContactWork workOf(const WorldState& world, const Contact& c) {
     const BodyStorage& b = world.bodies;
     const MeasuredData& data = world.data.measured;
     const Mat3 to_contact = contactBasis(c.normal).transpose();
+    const Vec3 surface = surfaceVelocity(world, c, c.a) - surfaceVelocity(world, c, c.b);
     const auto at = [&](std::span<const Vec3> v, std::span<const Vec3> w) -> Vec3 {
         const Vec3 r_a = c.point - b.position[c.a];
         const Vec3 r_b = c.point - b.position[c.b];
-        return to_contact * (v[c.a] + w[c.a].cross(r_a) - v[c.b] - w[c.b].cross(r_b));
+        return to_contact * (v[c.a] + w[c.a].cross(r_a) - v[c.b] - w[c.b].cross(r_b) + surface);
     };
     const Vec3 turning = 0.5 * (data.w[c.a] + b.w[c.a] - data.w[c.b] - b.w[c.b]);
     return {to_contact * c.impulse, at(data.v, data.w), at(b.v, b.w), c.angular_impulse.dot(turning)};
@@ -141,6 +154,9 @@ void accountContacts(WorldState& world) {
         const double sign = a_moves ? 1 : -1;
         d.fixed_impulse += sign * c.impulse;
         d.fixed_angular_impulse += sign * (c.point.cross(c.impulse) + c.angular_impulse);
+        const BodyIndex wall = a_moves ? c.b : c.a;
+        const Vec3 at_wall = b.v[wall] + b.w[wall].cross(c.point - b.position[wall]) + surfaceVelocity(world, c, wall);
+        d.energy_drives += sign * (c.impulse.dot(at_wall) + c.angular_impulse.dot(b.w[wall]));
     }
 }
 
@@ -164,8 +180,10 @@ bool accountJoints(WorldState& world) {
 
 void accountResolution(WorldState& world, double change) {
     Diagnostics& d = world.statistics.diagnostics;
+    const double driven = d.energy_drives;
     accountContacts(world);
-    if (accountJoints(world)) d.energy_joints = change - d.energy_friction - d.energy_restitution;
+    const double by_contacts = d.energy_friction + d.energy_restitution + (d.energy_drives - driven);
+    if (accountJoints(world)) d.energy_joints = change - by_contacts;
 }
 
 void finish(WorldState& world, const StepTotals& now) {
@@ -178,7 +196,8 @@ void finish(WorldState& world, const StepTotals& now) {
         (now.angular_momentum - begin.angular_momentum - d.fixed_angular_impulse - d.force_angular_impulse).norm();
     d.energy = now.energy();
     const double explained = d.energy_flight + d.energy_forces + d.energy_damping + d.energy_friction +
-                             d.energy_restitution + d.energy_joints + d.energy_correction + d.energy_sleep;
+                             d.energy_restitution + d.energy_joints + d.energy_drives + d.energy_correction +
+                             d.energy_sleep;
     d.energy_error = now.energy() - begin.energy() - explained;
 }
 

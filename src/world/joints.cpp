@@ -19,8 +19,11 @@ void listExcluded(const WorldState& world, std::vector<BodyPair>& excluded) {
     std::ranges::sort(excluded);
 }
 
-/// A motor that runs keeps its bodies awake, however slowly it moves them.
+/// A motor that runs keeps its bodies awake, however slowly it moves them, and so does a law that carries them.
 bool isDriven(const WorldState& world, std::size_t group) {
+    const std::vector<std::uint8_t>& carried = world.data.carried;
+    const auto isCarried = [&](BodyIndex body) { return carried[body] != 0; };
+    if (!carried.empty() && std::ranges::any_of(world.data.joint_groups.bodiesOf(group), isCarried)) return true;
     return std::ranges::any_of(world.data.joint_groups.jointsOf(group), [&](std::uint32_t j) {
         return world.joints[j].hasMotor() && world.joints[j].motor_speed != 0;
     });

@@ -26,6 +26,8 @@ struct MomentState {
     std::vector<Spring> springs;
     std::vector<Joint> joints;
     Vec3 gravity, global_acceleration;
+    std::vector<DrivenBody> driven;
+    std::optional<FrameMotion> frame;
     std::int64_t steps = 0, steps_at_start = 0;
     double time = 0, time_at_start = 0;
     std::vector<std::uint32_t> contact_generation;  ///< StepData::generation

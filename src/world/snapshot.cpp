@@ -11,6 +11,7 @@
 #include "world/quarantine.h"
 #include "world/saved_fields.h"
 #include "world/saved_filter.h"
+#include "world/saved_motions.h"
 
 namespace cairn {
 
@@ -119,6 +120,10 @@ void checkBody(const ByteReader& in, const BodyStorage& b, BodyIndex i, std::siz
         requireDamping(b.angular_damping[i], "angular");
     } catch (const InputError& error) {
         in.refuse(error.what());
+    }
+    const bool runs = !b.surface_velocity[i].isZero(0);
+    if (!b.surface_velocity[i].allFinite() || (runs && b.kind[i] != BodyKind::fixed)) {
+        in.refuse(fmt::format("body {} with a surface that runs as none does", i));
     }
     if (b.kind[i] != BodyKind::dynamic) return;
     if (isInfinite(b.shape[i])) in.refuse(fmt::format("body {} that is infinite and moves", i));
@@ -304,6 +309,7 @@ void saveWorld(const WorldState& world, ByteWriter& out) {
     worldFields(out, world);
     saveBodies(world.bodies, out);
     saveFilter(world.bodies.filter, out);
+    saveMotions(world, out);
     saveList(out, world.springs, [&](const Spring& spring) { springFields(out, spring); });
     saveList(out, world.joints, [&](const Joint& joint) { jointFields(out, joint); });
     out.putArray(std::span(world.data.generation));
@@ -323,6 +329,7 @@ std::unique_ptr<WorldState> loadWorld(ByteReader& in) {
     worldFields(in, *world);
     loadBodies(in, world->materials.all().size(), world->bodies);
     loadFilter(in, world->bodies);
+    loadMotions(in, *world);
     loadSprings(in, world->bodies, world->springs);
     loadJoints(in, world->bodies, world->joints);
     loadContacts(in, world->data);

@@ -9,6 +9,7 @@
 #include "world/diagnostics.h"
 #include "world/events.h"
 #include "world/joints.h"
+#include "world/motions.h"
 #include "world/quarantine.h"
 #include "world/sensors.h"
 #include "world/totals.h"
@@ -139,6 +140,7 @@ void correctStage(WorldState& world) {
 void velocityStage(WorldState& world) {
     StepData& data = world.data;
     const Vec3 acceleration = world.gravity + world.global_acceleration;
+    advanceLaws(world);
     data.supports.resize(world.bodies.slots());
     countSupports(world.bodies.kind, data.contacts, acceleration, data.supports);
     if (!acceleration.isZero(0)) countJointSupports(world, data.supports);
@@ -174,6 +176,7 @@ void resolveStage(WorldState& world) {
         bodies.shock_stage = world.trace.shock_stage;
     }
     bodies.time_step = world.settings.timeStep();
+    bodies.surface = data.surface;
     const GravityDampingSettings& damping = world.settings.gravity_damping;
     bodies.fall = (damping.damping_threshold > 0 ? 1 - damping.damping : 1.0) * world.settings.timeStep() *
                   (world.gravity + world.global_acceleration);
@@ -203,16 +206,17 @@ void resolveStage(WorldState& world) {
     measureIfAsked(world, Measured::completion);
 }
 
-/// Bodies that do not fall asleep one by one: jointed ones do it together, and those that gravity does not pull down
-/// never do, since stopping them when they are slow would take their momentum.
+/// Bodies that do not fall asleep one by one: jointed ones do it together, and those that gravity does not pull down or
+/// that a law carries never do, since stopping them when they are slow would take their momentum.
 std::span<const std::uint8_t> listNotSleeping(WorldState& world) {
     StepData& data = world.data;
     const auto floats = [](double factor) { return !(factor > 0); };
-    if (std::ranges::none_of(world.bodies.gravity_factor, floats)) return data.jointed;
+    if (data.carried.empty() && std::ranges::none_of(world.bodies.gravity_factor, floats)) return data.jointed;
     data.not_sleeping = data.jointed;
     data.not_sleeping.resize(world.bodies.slots(), 0);
     for (std::size_t i = 0; i < data.not_sleeping.size(); ++i) {
-        if (floats(world.bodies.gravity_factor[i])) data.not_sleeping[i] = 1;
+        const bool is_carried = !data.carried.empty() && data.carried[i] != 0;
+        if (is_carried || floats(world.bodies.gravity_factor[i])) data.not_sleeping[i] = 1;
     }
     return data.not_sleeping;
 }
@@ -220,7 +224,9 @@ std::span<const std::uint8_t> listNotSleeping(WorldState& world) {
 void sleepStage(WorldState& world) {
     // In zero gravity nothing rests: a slow body that was stopped would lose its momentum.
     const bool weightless = (world.gravity + world.global_acceleration).isZero(0);
-    if (!world.settings.sleep.sleeping || weightless) return;
+    // In a frame that is shaken nothing is at rest either.
+    const bool shaken = !world.frame_acceleration.isZero(0);
+    if (!world.settings.sleep.sleeping || weightless || shaken) return;
     BodyStorage& b = world.bodies;
     const std::span<const std::uint8_t> others = listNotSleeping(world);
     fallAsleep(b.state(), {b.motion, b.r_max, b.constant_force, b.constant_torque, others}, world.settings.sleep,
@@ -248,6 +254,7 @@ void stepWorld(WorldState& world) {
         quarantine(world);
         wakeSpringEnds(world.springs, world.bodies);
         prepareJoints(world);
+        beginLaws(world);
     });
     measureIfAsked(world, Measured::begin);
     timed(statistics, Stage::positions, [&] {
@@ -256,6 +263,7 @@ void stepWorld(WorldState& world) {
                                          world.gravity + world.global_acceleration, world.settings.timeStep(),
                                          world.data.contacts};
         world.joint_flight.begin(world.joints, world.data.joint_groups, world.bodies, motion);
+        moveByLaw(world);
         advancePositions(world.bodies, world.settings.integration, world.settings.timeStep(), world.executor);
         world.joint_flight.finish(world.joints, world.data.joint_groups, world.bodies, motion);
     });

@@ -7,6 +7,7 @@
 #include "geometry/body_mass.h"
 #include "sleeping/sleeping.h"
 #include "world/limits.h"
+#include "world/motions.h"
 #include "world/quarantine.h"
 #include "world/world_state.h"
 
@@ -92,6 +93,12 @@ void validateDescription(const BodyDescription& d, const MaterialTable& material
     requireGravityFactor(d.gravity_factor);
     requireDamping(d.linear_damping, "linear");
     requireDamping(d.angular_damping, "angular");
+    requireWithin(d.pivot, distance_limit, "pivot", "m");
+    requireWithin(d.surface_velocity, speed_limit, "surface_velocity", "m/s");
+    if (!d.fixed && !d.surface_velocity.isZero(0)) {
+        throw InputError("only the surface of a fixed body runs; make it fixed or leave surface_velocity zero");
+    }
+    if (d.motion && !d.fixed) throw InputError("a body with a motion is not moved by forces; make it fixed");
     const bool moves = !d.linear_velocity.isZero(0) || !d.angular_velocity.isZero(0);
     if (d.fixed && moves) throw InputError("a fixed body has no velocity; leave its velocities zero");
     if (d.asleep && moves) throw InputError("a sleeping body has no velocity; leave its velocities zero");
@@ -152,6 +159,7 @@ BodyId World::addBody(const BodyDescription& d) {
     const Quat orientation = requireRotation(d.pose.orientation);
     BodyStorage& b = w.bodies;
     const std::uint64_t groups = b.filter.maskOf(d.groups);
+    auto curve = d.motion ? std::make_shared<const MotionCurve>(*d.motion) : nullptr;
     if (b.count() >= static_cast<std::size_t>(w.settings.limits.body_limit)) {
         throw InputError(
             fmt::format("a body too many: the setting body_limit allows {}; raise it or remove bodies first",
@@ -182,7 +190,9 @@ BodyId World::addBody(const BodyDescription& d) {
     b.linear_damping[i] = d.linear_damping;
     b.angular_damping[i] = d.angular_damping;
     b.user_data[i] = d.user_data;
+    b.surface_velocity[i] = d.surface_velocity;
     b.updateMassProperties(i);
+    if (curve != nullptr) addLaw(w, {i, w.time, b.shapePose(i), d.pivot, std::move(curve)});
     return b.idOf(i);
 }
 
@@ -195,6 +205,7 @@ void World::removeBody(BodyId id) {
     w.ties.list(w.springs, w.joints, w.bodies.slots());
     for (const std::uint32_t slot : w.ties.springsOf(i)) removeTie(w.springs[slot], i, w.bodies.state());
     for (const std::uint32_t slot : w.ties.jointsOf(i)) removeTie(w.joints[slot], i, w.bodies.state());
+    removeLaw(w, i);
     w.bodies.release(i);
 }
 
@@ -273,6 +284,7 @@ void World::setPose(BodyId id, const Pose& pose) {
     const BodyIndex i = b.indexOf(id);
     requireWithin(pose.position, distance_limit, "position", "m");
     const Quat orientation = requireRotation(pose.orientation);
+    requireNoLaw(*state_, i);
     ++state_->places_version;
     b.setShapePose(i, {pose.position, orientation});
     b.updateMassProperties(i);
@@ -298,6 +310,11 @@ void World::setFixed(BodyId id, bool fixed) {
     const BodyIndex i = b.indexOf(id);
     if (!fixed && isInfinite(b.shape[i])) {
         throw InputError(fmt::format("a {} has no mass and stays fixed", shapeName(b.shape[i])));
+    }
+    requireNoLaw(*state_, i);
+    if (!fixed && !b.surface_velocity[i].isZero(0)) {
+        throw InputError(fmt::format(
+            "the surface of body {} runs, so it stays fixed; stop it with World::setSurfaceVelocity first", i));
     }
     state_->lasting.reset();
     b.state().wake(i, WakeReason::changed);

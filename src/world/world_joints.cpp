@@ -6,6 +6,7 @@
 
 #include "cairn/world.h"
 #include "math/tolerances.h"
+#include "world/motions.h"
 #include "world/quarantine.h"
 #include "world/world_state.h"
 
@@ -167,6 +168,8 @@ JointId World::addJoint(const JointDescription& d) {
         throw InputError(fmt::format("a {} between bodies that cannot move has no effect; one of them must be dynamic",
                                      kindName(d.kind)));
     }
+    requireNoLaw(w, a);
+    if (d.b) requireNoLaw(w, b);
     std::uint32_t slot = 0;
     while (slot < w.joints.size() && w.joints[slot].present) ++slot;
     if (slot == w.joints.size()) w.joints.emplace_back();

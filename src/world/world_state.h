@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "batches/batches.h"
@@ -22,6 +23,7 @@
 #include "parallel/executor.h"
 #include "queries/spatial_index.h"
 #include "resolution/resolution.h"
+#include "world/driven_body.h"
 #include "world/ties.h"
 
 namespace cairn {
@@ -65,6 +67,8 @@ struct StepData {
     std::vector<std::uint8_t> jointed;    ///< events: [slots] 1 = has a joint; empty without joints
     std::vector<BodyPair> excluded;       ///< events: pairs that joints keep from touching, sorted
     std::vector<Sensed> sensed;           ///< detection: by sensor and body
+    std::vector<Vec3> surface;            ///< velocities: [slots] of fixed bodies' surfaces [m/s, W]; or empty
+    std::vector<std::uint8_t> carried;    ///< velocities: [slots] 1 = in a batch that a moving law touches; or empty
     std::vector<std::uint8_t> not_sleeping;           ///< sleeping: [slots] 1 = does not fall asleep by itself
     std::vector<JointBlock> joint_blocks;             ///< resolution: batch after batch, in it group after group
     std::vector<std::uint32_t> joint_begin;           ///< resolution: [batches + 1] offsets into joint_blocks
@@ -120,6 +124,9 @@ struct WorldState {
     JointFlight joint_flight;
     Vec3 gravity = Vec3::Zero();              ///< [m/s², W]
     Vec3 global_acceleration = Vec3::Zero();  ///< [m/s², W]
+    std::vector<DrivenBody> driven;           ///< ascending by body
+    std::optional<FrameMotion> frame;         ///< none = it rests
+    Vec3 frame_acceleration = Vec3::Zero();   ///< events: what its motion gives all bodies in this step [m/s², W]
 
     std::int64_t steps = 0;
     double time = 0;                  ///< [s]

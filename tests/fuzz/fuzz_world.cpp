@@ -67,12 +67,73 @@ void travel(World& world, fuzz::Bytes& in, Made& made) {
     }
 }
 
+Motion anyMotion(fuzz::Bytes& in) {
+    switch (in.below(3)) {
+        case 0:
+            return ConstantMotion{in.vector(3), in.vector(3)};
+        case 1:
+            return SineMotion{in.vector(1), in.vector(1), std::abs(in.number(5)), in.number(3)};
+        default:
+            TableMotion table;
+            for (std::uint32_t left = in.below(5); left > 0; --left) {
+                table.times.push_back((table.times.empty() ? 0 : table.times.back()) + in.number(1));
+                table.displacements.push_back(in.vector(1));
+                if (in.below(4) != 0) table.turns.push_back(in.vector(1));
+            }
+            table.end = static_cast<TableEnd>(in.below(2));
+            return table;
+    }
+}
+
+/// Motions by laws, and who touches whom.
+void actOnLaws(World& world, fuzz::Bytes& in, Made& made) {
+    const BodyId id = anyOf(made.bodies, in);
+    const auto group = [&] { return static_cast<GroupId>(in.below(4)); };
+    const auto touch = [&] { return static_cast<Touch>(in.below(2)); };
+    switch (in.below(10)) {
+        case 0:
+            return world.setMotion(id, anyMotion(in), in.vector(1));
+        case 1:
+            return world.stopMotion(id);
+        case 2:
+            return world.setFrameMotion(in.below(2) == 0 ? std::nullopt : std::optional(anyMotion(in)));
+        case 3:
+            return world.setSurfaceVelocity(id, in.vector(3));
+        case 4:
+            world.addGroup(std::string(1 + in.below(4), 'g'));
+            return;
+        case 5:
+            return world.setGroupsTouch(group(), group(), touch());
+        case 6: {
+            const GroupId groups[] = {group(), group()};
+            return world.setGroups(id, groups);
+        }
+        case 7:
+            return world.setPairTouch(id, anyOf(made.bodies, in), touch());
+        case 8:
+            return world.setGravityFactor(id, in.number(3));
+        default:
+            return world.setDamping(id, in.number(10), in.number(10));
+    }
+}
+
+void ask(const World& world, fuzz::Bytes& in) {
+    const auto hit = world.castRay({in.vector(5), in.vector(1)});
+    const auto all = world.castRayThrough({in.vector(5), in.vector(1)});
+    const Pose pose{in.vector(3), fuzz::rotation(in)};
+    const auto met = world.castShape(Sphere{0.1}, pose, in.vector(5));
+    fuzz::require(!met || std::isfinite(met->distance));
+    fuzz::require(!hit || std::isfinite(hit->distance));
+    for (std::size_t i = 1; i < all.size(); ++i) fuzz::require(all[i - 1].distance <= all[i].distance);
+    fuzz::require(world.overlap(Box{}, pose).size() <= 4 * world.bodyCount());
+}
+
 /// One call with arguments from the bytes, good or bad.
 void act(World& world, fuzz::Bytes& in, Made& made) {
     std::vector<BodyId>& ids = made.bodies;
     std::vector<SpringId>& springs = made.springs;
     const BodyId id = anyOf(ids, in);
-    switch (in.below(30)) {
+    switch (in.below(32)) {
         case 0:
         case 1:
         case 2:
@@ -87,6 +148,7 @@ void act(World& world, fuzz::Bytes& in, Made& made) {
             if (in.below(4) == 0) d.linear_velocity = in.vector(30);
             if (in.below(4) == 0) d.angular_velocity = in.vector(30);
             d.asleep = in.below(4) == 0;
+            d.sensor = in.below(16) == 0;
             ids.push_back(world.addBody(d));
             return;
         }
@@ -152,6 +214,10 @@ void act(World& world, fuzz::Bytes& in, Made& made) {
         }
         case 28:
             return travel(world, in, made);
+        case 29:
+            return actOnLaws(world, in, made);
+        case 30:
+            return ask(world, in);
         default:
             world.step();
     }

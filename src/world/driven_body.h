@@ -1,0 +1,26 @@
+/// @file What a world keeps of motions by laws.
+#pragma once
+
+#include <memory>
+
+#include "body/body_fields.h"
+#include "integration/motion_curve.h"
+
+namespace cairn {
+
+/// A body that moves by a law.
+struct DrivenBody {
+    BodyIndex body = 0;
+    double start = 0;           ///< simulated time at which the law begins [s]
+    Pose pose{};                ///< of the shape's frame at that time [W]
+    Vec3 pivot = Vec3::Zero();  ///< about which it turns [m, frame of the shape]
+    std::shared_ptr<const MotionCurve> curve{};
+};
+
+/// The motion of the frame of a world.
+struct FrameMotion {
+    double start = 0;  ///< simulated time at which it begins [s]
+    std::shared_ptr<const MotionCurve> curve{};
+};
+
+}  // namespace cairn

@@ -1,0 +1,142 @@
+#include "world/motions.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/rotation.h"
+#include "resolution/batch_motion.h"
+
+namespace cairn {
+
+namespace {
+
+/// Simulated time after so many steps, as stepWorld() reckons it.
+double timeAfter(const WorldState& world, std::int64_t steps) {
+    return world.time_at_start + static_cast<double>(steps - world.steps_at_start) / world.settings.steps_per_second;
+}
+
+/// The shape's frame of a body by its law. @param time [s]
+Pose poseAt(const DrivenBody& driven, double time) {
+    const Excursion excursion = driven.curve->at(time - driven.start);
+    const Quat turn = fromRotationVector(excursion.turn);
+    const Quat orientation = (turn * driven.pose.orientation).normalized();
+    const Vec3 pivot = driven.pose.toOuter(driven.pivot) + excursion.displacement;
+    return {pivot - orientation * driven.pivot, orientation};
+}
+
+/// The rotation vector that leads from one orientation to another, over the shorter way.
+Vec3 rotationBetween(const Quat& from, const Quat& to) {
+    Quat turn = to * from.conjugate();
+    if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
+    const double sine = turn.vec().norm();
+    // Twice the angle over its sine; where both vanish their quotient does not.
+    const double factor = sine < 1e-9 ? 2.0 : 2 * std::atan2(sine, turn.w()) / sine;
+    return factor * turn.vec();
+}
+
+/// Wakes the batches that touch a body that moves: what sleeps would be left behind, and slow bodies would lose their
+/// velocity by falling asleep.
+void wakeCarried(WorldState& world) {
+    StepData& data = world.data;
+    BodyState bodies = world.bodies.state();
+    bodies.surface = data.surface;
+    data.carried.assign(bodies.size(), 0);
+    std::vector<std::uint8_t> moved(data.batches.size(), 0);
+    const auto moves = [&](BodyIndex i) { return bodies.isFixed(i) && !isAtRest(bodies, i); };
+    for (std::size_t i = 0; i < data.contacts.size(); ++i) {
+        const Contact& contact = data.contacts[i];
+        if (moves(contact.a) || moves(contact.b)) moved[data.batches.batch_of_contact[i]] = 1;
+    }
+    for (std::size_t batch = 0; batch < moved.size(); ++batch) {
+        if (moved[batch] == 0) continue;
+        for (const BodyIndex body : data.batches[batch].bodies) {
+            data.carried[body] = 1;
+            bodies.wake(body, WakeReason::changed);
+        }
+    }
+}
+
+/// Finds how surfaces move as their bodies stand now.
+void turnSurfaces(WorldState& world) {
+    const BodyStorage& b = world.bodies;
+    std::vector<Vec3>& surface = world.data.surface;
+    surface.clear();
+    if (std::ranges::all_of(b.surface_velocity, [](const Vec3& v) { return v.isZero(0); })) return;
+    surface.resize(b.slots(), Vec3::Zero());
+    for (BodyIndex i = 0; i < b.slots(); ++i) {
+        if (b.kind[i] == BodyKind::fixed) surface[i] = b.shapePose(i).orientation * b.surface_velocity[i];
+    }
+}
+
+/// What bodies feel in a frame that moves: the opposite of its mean acceleration from step to step, so that a world
+/// whose ground moves and one whose frame does agree.
+Vec3 frameAcceleration(const WorldState& world) {
+    if (!world.frame) return Vec3::Zero();
+    const auto at = [&](std::int64_t steps) {
+        return world.frame->curve->at(std::max(0.0, timeAfter(world, steps) - world.frame->start)).displacement;
+    };
+    const double step = world.settings.timeStep();
+    return -(at(world.steps + 1) - 2 * at(world.steps) + at(world.steps - 1)) / (step * step);
+}
+
+}  // namespace
+
+void moveByLaw(WorldState& world) {
+    for (const DrivenBody& driven : world.driven) {
+        world.bodies.setShapePose(driven.body, poseAt(driven, timeAfter(world, world.steps)));
+    }
+}
+
+void advanceLaws(WorldState& world) {
+    BodyStorage& b = world.bodies;
+    const double step = world.settings.timeStep();
+    for (const DrivenBody& driven : world.driven) {
+        const BodyIndex i = driven.body;
+        const Pose next = poseAt(driven, timeAfter(world, world.steps + 1)).toOuter(b.shapeInBody(i).inverse());
+        b.v[i] = (next.position - b.position[i]) / step;
+        b.w[i] =
+            driven.curve->turns() ? Vec3(rotationBetween(b.orientation[i], next.orientation) / step) : Vec3::Zero();
+    }
+    world.data.carried.clear();
+    turnSurfaces(world);
+    if (isDrivenByLaws(world)) wakeCarried(world);
+    if (world.frame_acceleration.isZero(0)) return;
+    for (BodyIndex i = 0; i < b.slots(); ++i) {
+        if (b.kind[i] == BodyKind::dynamic) b.force[i] += b.mass[i] * world.frame_acceleration;
+    }
+}
+
+void beginLaws(WorldState& world) {
+    world.frame_acceleration = frameAcceleration(world);
+    if (!world.frame_acceleration.isZero(0)) world.wakeAll();
+}
+
+void addLaw(WorldState& world, DrivenBody driven) {
+    const auto place = std::ranges::upper_bound(world.driven, driven.body, {}, &DrivenBody::body);
+    world.driven.insert(place, std::move(driven));
+}
+
+void removeLaw(WorldState& world, BodyIndex body) {
+    if (lawOf(world, body) == nullptr) return;
+    std::erase_if(world.driven, [&](const DrivenBody& driven) { return driven.body == body; });
+    world.bodies.v[body].setZero();
+    world.bodies.w[body].setZero();
+}
+
+void requireNoLaw(const WorldState& world, BodyIndex body) {
+    if (lawOf(world, body) == nullptr) return;
+    throw InputError(fmt::format("body {} moves by a law; stop it with World::stopMotion first", body));
+}
+
+const DrivenBody* lawOf(const WorldState& world, BodyIndex body) {
+    const auto found = std::ranges::find(world.driven, body, &DrivenBody::body);
+    return found == world.driven.end() ? nullptr : &*found;
+}
+
+bool isDrivenByLaws(const WorldState& world) {
+    return !world.driven.empty() || !world.data.surface.empty();
+}
+
+}  // namespace cairn

@@ -1,0 +1,101 @@
+/// The part of World that moves bodies and its frame by laws.
+#include <fmt/core.h>
+
+#include "cairn/world.h"
+#include "world/motions.h"
+#include "world/quarantine.h"
+#include "world/world_state.h"
+
+namespace cairn {
+
+namespace {
+
+/// @throws InputError for a dynamic body
+void requireFixed(const BodyStorage& bodies, BodyIndex i) {
+    if (bodies.kind[i] == BodyKind::fixed) return;
+    throw InputError(
+        fmt::format("body {} is moved by forces; only a fixed body moves by a law: make it one with World::setFixed "
+                    "first",
+                    i));
+}
+
+/// @throws InputError for a body with a joint
+void requireUnjointed(WorldState& w, BodyIndex i) {
+    w.ties.list(w.springs, w.joints, w.bodies.slots());
+    for (const std::uint32_t slot : w.ties.jointsOf(i)) {
+        if (!w.joints[slot].present || (w.joints[slot].a != i && w.joints[slot].b != i)) continue;
+        throw InputError(
+            fmt::format("body {} has a joint; one that moves by a law takes none: remove the joint, or let "
+                        "a motor move it",
+                        i));
+    }
+}
+
+}  // namespace
+
+void World::setMotion(BodyId id, const Motion& motion, const Vec3& pivot) {
+    WorldState& w = *state_;
+    const BodyIndex i = w.bodies.indexOf(id);
+    requireFixed(w.bodies, i);
+    requireUnjointed(w, i);
+    if (!(pivot.allFinite() && pivot.cwiseAbs().maxCoeff() <= distance_limit)) {
+        throw InputError(
+            fmt::format("the pivot of a motion is ({}, {}, {}) m; every component must be finite and "
+                        "within ±{} m",
+                        pivot.x(), pivot.y(), pivot.z(), distance_limit));
+    }
+    DrivenBody driven{i, w.time, w.bodies.shapePose(i), pivot, std::make_shared<const MotionCurve>(motion)};
+    removeLaw(w, i);
+    addLaw(w, std::move(driven));
+}
+
+void World::stopMotion(BodyId id) {
+    WorldState& w = *state_;
+    const BodyIndex i = w.bodies.indexOf(id);
+    removeLaw(w, i);
+}
+
+std::optional<Motion> World::motion(BodyId id) const {
+    const DrivenBody* driven = lawOf(*state_, state_->bodies.indexOf(id));
+    if (driven == nullptr) return {};
+    return driven->curve->motion();
+}
+
+void World::setSurfaceVelocity(BodyId id, const Vec3& velocity) {
+    WorldState& w = *state_;
+    const BodyIndex i = w.bodies.indexOf(id);
+    requireFixed(w.bodies, i);
+    if (!(velocity.allFinite() && velocity.cwiseAbs().maxCoeff() <= speed_limit)) {
+        throw InputError(
+            fmt::format("the velocity of a surface is ({}, {}, {}) m/s; every component must be finite and "
+                        "within ±{} m/s",
+                        velocity.x(), velocity.y(), velocity.z(), speed_limit));
+    }
+    w.lasting.reset();
+    w.bodies.surface_velocity[i] = velocity;
+}
+
+Vec3 World::surfaceVelocity(BodyId id) const {
+    return state_->bodies.surface_velocity[state_->bodies.indexOf(id)];
+}
+
+void World::setFrameMotion(const std::optional<Motion>& motion) {
+    WorldState& w = *state_;
+    if (!motion) {
+        w.frame.reset();
+        return;
+    }
+    auto curve = std::make_shared<const MotionCurve>(*motion);
+    if (curve->turns()) {
+        throw InputError("the frame of a world does not turn; give a motion without spin or turns");
+    }
+    w.frame = FrameMotion{w.time, std::move(curve)};
+    w.wakeAll();
+}
+
+std::optional<Motion> World::frameMotion() const {
+    if (!state_->frame) return {};
+    return state_->frame->curve->motion();
+}
+
+}  // namespace cairn
