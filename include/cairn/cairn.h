@@ -1,6 +1,7 @@
 /// @file Everything of the public interface.
 #pragma once
 
+#include "cairn/bodies.h"
 #include "cairn/checkpoint.h"
 #include "cairn/events.h"
 #include "cairn/filter.h"

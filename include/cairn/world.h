@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cairn/bodies.h"
 #include "cairn/events.h"
 #include "cairn/filter.h"
 #include "cairn/joint.h"
@@ -225,6 +226,27 @@ class World {
     void setFrameMotion(const std::optional<Motion>& motion);
     std::optional<Motion> frameMotion() const;  ///< none = it rests
 
+    // --- many bodies at once: at the cost of a loop over arrays, with the checks and wakings of the calls above ---
+    /// The state of all bodies, without a copy; it follows the world until layoutVersion() changes.
+    BodyViews bodyViews() const;
+    /// Another number as soon as bodies were added or removed or a state was loaded, so that views are to be taken
+    /// anew.
+    std::uint64_t layoutVersion() const noexcept;
+    /// What pose() says of every slot, into a vector whose memory is used again; entries of holes mean nothing.
+    void posesTo(std::vector<Pose>& poses) const;
+    /// Writing: one value per body, a later one of the same body after an earlier one. If one is refused, nothing is
+    /// written. @throws StaleIdError, InputError as the call for one body, and unless there are as many values as ids
+    void setPoses(std::span<const BodyId> ids, std::span<const Pose> poses);
+    void setLinearVelocities(std::span<const BodyId> ids, std::span<const Vec3> v);          ///< [m/s, W]
+    void setAngularVelocities(std::span<const BodyId> ids, std::span<const Vec3> w);         ///< [rad/s, W]
+    void wake(std::span<const BodyId> ids);                                                  ///< as for one body
+    void applyForces(std::span<const BodyId> ids, std::span<const Vec3> forces);             ///< [N, W]
+    void applyTorques(std::span<const BodyId> ids, std::span<const Vec3> torques);           ///< [N·m, W]
+    void applyImpulses(std::span<const BodyId> ids, std::span<const Vec3> impulses);         ///< [N·s, W]
+    void applyAngularImpulses(std::span<const BodyId> ids, std::span<const Vec3> impulses);  ///< [N·m·s, W]
+    void setConstantForces(std::span<const BodyId> ids, std::span<const Vec3> forces);       ///< [N, W]
+    void setConstantTorques(std::span<const BodyId> ids, std::span<const Vec3> torques);     ///< [N·m, W]
+
     // --- springs ---
     /// @throws InputError, StaleIdError
     SpringId addSpring(const SpringDescription& description);
@@ -304,7 +326,9 @@ class World {
     ClosestPoints closestPoints(BodyId a, BodyId b) const;
 
     // --- after a step ---
-    std::vector<ContactInfo> contacts() const;     ///< of the last step, by (a, b)
+    std::vector<ContactInfo> contacts() const;  ///< of the last step, by (a, b)
+    /// As contacts(), into a vector whose memory is used again.
+    void contactsTo(std::vector<ContactInfo>& contacts) const;
     std::vector<BatchInfo> batches() const;        ///< of the last step, by their lowest body
     const Statistics& statistics() const;          ///< of the last step
     const std::vector<FaultInfo>& faults() const;  ///< all so far

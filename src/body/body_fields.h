@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "body/field_array.h"
+#include "cairn/bodies.h"
 #include "cairn/events.h"
 #include "cairn/shape.h"
 #include "cairn/types.h"
@@ -18,9 +19,6 @@ namespace cairn {
 
 /// Index of a body's slot.
 using BodyIndex = std::uint32_t;
-
-/// What a slot holds.
-enum class BodyKind : std::uint8_t { hole, fixed, dynamic };
 
 /// Structure of arrays with one entry per slot; a hole's entries are those of its last body, its kind is hole.
 struct BodyArrays {

@@ -33,6 +33,7 @@ BodyIndex BodyStorage::allocate(BodyKind new_kind) {
     kind[i] = new_kind;
     number[i] = next_number_++;
     ++count_;
+    ++layout_version_;
     return i;
 }
 
@@ -46,6 +47,7 @@ void BodyStorage::release(BodyIndex i) {
     holes_.push_back(i);
     std::push_heap(holes_.begin(), holes_.end(), std::greater<>());
     --count_;
+    ++layout_version_;
 }
 
 void BodyStorage::adoptSlots(std::uint64_t next_number) {
@@ -56,6 +58,7 @@ void BodyStorage::adoptSlots(std::uint64_t next_number) {
         if (kind[i] == BodyKind::hole) holes_.push_back(i);
     }
     count_ = slots() - holes_.size();
+    ++layout_version_;
 }
 
 void BodyStorage::updateMassProperties(BodyIndex i) {

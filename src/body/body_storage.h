@@ -83,6 +83,10 @@ class BodyStorage : public BodyArrays {
     void adoptSlots(std::uint64_t next_number);
     /// The number of the body that is added next.
     std::uint64_t nextNumber() const { return next_number_; }
+    /// Changes when a body comes or goes, and when all are replaced.
+    std::uint64_t layoutVersion() const { return layout_version_; }
+    /// Takes the place of other bodies, so that the layout version becomes another than theirs.
+    void succeed(const BodyStorage& others) { layout_version_ = others.layout_version_ + 1; }
     /// Sets the inverse mass properties from mass, inertia_B, kind and orientation.
     void updateMassProperties(BodyIndex i);
     BodyState state();
@@ -98,6 +102,7 @@ class BodyStorage : public BodyArrays {
     std::vector<BodyIndex> holes_;  ///< min-heap
     std::size_t count_ = 0;
     std::uint64_t next_number_ = 0;
+    std::uint64_t layout_version_ = 0;
 };
 
 }  // namespace cairn

@@ -1,4 +1,4 @@
-/// The part of World that adds, removes, reads and writes bodies and springs.
+/// The part of World that adds, removes and reads bodies.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -9,6 +9,7 @@
 #include "world/limits.h"
 #include "world/motions.h"
 #include "world/quarantine.h"
+#include "world/requirements.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -48,31 +49,12 @@ void removeTie(Tie& tie, BodyIndex i, const BodyState& bodies) {
     ++tie.generation;
 }
 
-/// @throws InputError if a component is not finite or beyond the limit
-void requireWithin(const Vec3& value, double limit, std::string_view what, std::string_view unit) {
-    if (value.allFinite() && value.cwiseAbs().maxCoeff() <= limit) return;
-    throw InputError(fmt::format("{} is ({}, {}, {}) {}; every component must be finite and within ±{} {}", what,
-                                 value.x(), value.y(), value.z(), unit, limit, unit));
-}
-
-/// Limit of forces, torques and impulses: far above any use, far below overflow.
-constexpr double load_limit = 1e30;
-
 /// @throws InputError if the response could not reckon with it
 void requireUsableMass(double mass) {
     if (isUsableMass(mass)) return;
     throw InputError(
         fmt::format("mass is {} kg; it must be within {} and {} kg: change the size, the density or the mass", mass,
                     smallest_mass, largest_mass));
-}
-
-/// @throws InputError if it cannot be normalised
-Quat requireRotation(const Quat& q) {
-    const double norm = q.coeffs().stableNorm();
-    if (std::isfinite(norm) && norm > 1e-6) return q.normalized();
-    throw InputError(
-        fmt::format("orientation is ({}, {}, {}, {}); a quaternion (w, x, y, z) must be finite and not zero", q.w(),
-                    q.x(), q.y(), q.z()));
 }
 
 void validateDescription(const BodyDescription& d, const MaterialTable& materials) {
@@ -141,14 +123,6 @@ Shape normalised(const Shape& shape) {
         for (CompoundPart& part : compound->parts) part.pose.orientation.normalize();
     }
     return result;
-}
-
-/// Body that may be moved by the user. @throws StaleIdError, InputError for a fixed body
-BodyIndex dynamicIndex(const BodyStorage& bodies, BodyId id, std::string_view what) {
-    const BodyIndex i = bodies.indexOf(id);
-    if (bodies.kind[i] == BodyKind::dynamic) return i;
-    throw InputError(
-        fmt::format("body {} is fixed and takes no {}; make it dynamic with World::setFixed first", id.index, what));
 }
 
 }  // namespace
@@ -271,126 +245,35 @@ Vec3 World::principalInertia(BodyId id) const {
     return Vec3::Constant(std::numeric_limits<double>::infinity());
 }
 
+std::uint64_t World::layoutVersion() const noexcept {
+    return state_->bodies.layoutVersion();
+}
+
+BodyViews World::bodyViews() const {
+    const BodyStorage& b = state_->bodies;
+    const auto view = [&](const auto& field) { return BodyView(field.share(), field.size()); };
+    return {.kind = view(b.kind),
+            .generation = view(b.generation),
+            .centre_of_mass = view(b.position),
+            .principal_axes = view(b.orientation),
+            .linear_velocity = view(b.v),
+            .angular_velocity = view(b.w),
+            .mass = view(b.mass),
+            .asleep = view(b.asleep)};
+}
+
+void World::posesTo(std::vector<Pose>& poses) const {
+    const BodyStorage& b = state_->bodies;
+    poses.resize(b.slots());
+    for (BodyIndex i = 0; i < b.slots(); ++i) poses[i] = b.shapePose(i);
+}
+
 bool World::isFixed(BodyId id) const {
     return state_->bodies.kind[state_->bodies.indexOf(id)] == BodyKind::fixed;
 }
 
 bool World::isAsleep(BodyId id) const {
     return state_->bodies.asleep[state_->bodies.indexOf(id)] != 0;
-}
-
-void World::setPose(BodyId id, const Pose& pose) {
-    BodyStorage& b = state_->bodies;
-    const BodyIndex i = b.indexOf(id);
-    requireWithin(pose.position, distance_limit, "position", "m");
-    const Quat orientation = requireRotation(pose.orientation);
-    requireNoLaw(*state_, i);
-    ++state_->places_version;
-    b.setShapePose(i, {pose.position, orientation});
-    b.updateMassProperties(i);
-    b.state().wake(i, WakeReason::changed);
-}
-
-void World::setLinearVelocity(BodyId id, const Vec3& v) {
-    const BodyIndex i = dynamicIndex(state_->bodies, id, "velocity");
-    requireWithin(v, speed_limit, "linear velocity", "m/s");
-    state_->bodies.v[i] = v;
-    state_->bodies.state().wake(i, WakeReason::changed);
-}
-
-void World::setAngularVelocity(BodyId id, const Vec3& w) {
-    const BodyIndex i = dynamicIndex(state_->bodies, id, "velocity");
-    requireWithin(w, speed_limit, "angular velocity", "rad/s");
-    state_->bodies.w[i] = w;
-    state_->bodies.state().wake(i, WakeReason::changed);
-}
-
-void World::setFixed(BodyId id, bool fixed) {
-    BodyStorage& b = state_->bodies;
-    const BodyIndex i = b.indexOf(id);
-    if (!fixed && isInfinite(b.shape[i])) {
-        throw InputError(fmt::format("a {} has no mass and stays fixed", shapeName(b.shape[i])));
-    }
-    requireNoLaw(*state_, i);
-    if (!fixed && !b.surface_velocity[i].isZero(0)) {
-        throw InputError(fmt::format(
-            "the surface of body {} runs, so it stays fixed; stop it with World::setSurfaceVelocity first", i));
-    }
-    state_->lasting.reset();
-    b.state().wake(i, WakeReason::changed);
-    b.kind[i] = fixed ? BodyKind::fixed : BodyKind::dynamic;
-    b.v[i].setZero();
-    b.w[i].setZero();
-    b.motion[i] = initialMotion(state_->settings.sleep);
-    b.supports[i] = -1;
-    b.updateMassProperties(i);
-}
-
-void World::wake(BodyId id) {
-    state_->bodies.state().wake(state_->bodies.indexOf(id), WakeReason::changed);
-}
-
-void World::applyForce(BodyId id, const Vec3& force) {
-    const BodyIndex i = dynamicIndex(state_->bodies, id, "force");
-    requireWithin(force, load_limit, "force", "N");
-    state_->bodies.force[i] += force;
-    state_->bodies.state().wake(i, WakeReason::changed);
-}
-
-void World::applyForceAt(BodyId id, const Vec3& force, const Vec3& point) {
-    const BodyIndex i = dynamicIndex(state_->bodies, id, "force");
-    requireWithin(force, load_limit, "force", "N");
-    requireWithin(point, distance_limit, "point", "m");
-    state_->bodies.force[i] += force;
-    state_->bodies.torque[i] += (point - state_->bodies.position[i]).cross(force);
-    state_->bodies.state().wake(i, WakeReason::changed);
-}
-
-void World::applyTorque(BodyId id, const Vec3& torque) {
-    const BodyIndex i = dynamicIndex(state_->bodies, id, "torque");
-    requireWithin(torque, load_limit, "torque", "N·m");
-    state_->bodies.torque[i] += torque;
-    state_->bodies.state().wake(i, WakeReason::changed);
-}
-
-void World::applyImpulse(BodyId id, const Vec3& impulse) {
-    BodyStorage& b = state_->bodies;
-    const BodyIndex i = dynamicIndex(b, id, "impulse");
-    requireWithin(impulse, load_limit, "impulse", "N·s");
-    b.v[i] += impulse * b.mass_inv[i];
-    b.state().wake(i, WakeReason::changed);
-}
-
-void World::applyImpulseAt(BodyId id, const Vec3& impulse, const Vec3& point) {
-    BodyStorage& b = state_->bodies;
-    const BodyIndex i = dynamicIndex(b, id, "impulse");
-    requireWithin(point, distance_limit, "point", "m");
-    applyImpulse(id, impulse);
-    b.w[i] += b.inertiaInv_W[i] * (point - b.position[i]).cross(impulse);
-}
-
-void World::applyAngularImpulse(BodyId id, const Vec3& impulse) {
-    BodyStorage& b = state_->bodies;
-    const BodyIndex i = dynamicIndex(b, id, "impulse");
-    requireWithin(impulse, load_limit, "angular impulse", "N·m·s");
-    b.w[i] += b.inertiaInv_W[i] * impulse;
-    b.state().wake(i, WakeReason::changed);
-}
-
-void World::setConstantForce(BodyId id, const Vec3& force) {
-    const BodyIndex i = dynamicIndex(state_->bodies, id, "force");
-    requireWithin(force, load_limit, "force", "N");
-    state_->lasting.reset();
-    state_->bodies.constant_force[i] = force;
-    state_->bodies.state().wake(i, WakeReason::changed);
-}
-
-void World::setConstantTorque(BodyId id, const Vec3& torque) {
-    const BodyIndex i = dynamicIndex(state_->bodies, id, "torque");
-    requireWithin(torque, load_limit, "torque", "N·m");
-    state_->lasting.reset();
-    state_->bodies.constant_torque[i] = torque;
-    state_->bodies.state().wake(i, WakeReason::changed);
 }
 
 }  // namespace cairn

@@ -76,8 +76,14 @@ std::uint64_t hashOf(const BodyStorage& b, BodyIndex i) {
 }  // namespace
 
 std::vector<ContactInfo> World::contacts() const {
-    const StepData& data = state_->data;
     std::vector<ContactInfo> infos;
+    contactsTo(infos);
+    return infos;
+}
+
+void World::contactsTo(std::vector<ContactInfo>& infos) const {
+    const StepData& data = state_->data;
+    infos.clear();
     infos.reserve(data.contacts.size());
     for (std::size_t i = 0; i < data.contacts.size(); ++i) {
         const Contact& c = data.contacts[i];
@@ -87,7 +93,6 @@ std::vector<ContactInfo> World::contacts() const {
         infos.push_back(
             {a, b, c.point, c.normal, c.distance, c.impulse, c.angular_impulse, data.batches.batch_of_contact[i]});
     }
-    return infos;
 }
 
 std::vector<BatchInfo> World::batches() const {

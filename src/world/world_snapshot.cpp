@@ -2,6 +2,7 @@
 #include "cairn/world.h"
 #include "world/moment.h"
 #include "world/snapshot.h"
+#include "world/world_state.h"
 
 namespace cairn {
 
@@ -31,6 +32,7 @@ void World::load(std::span<const std::byte> snapshot) {
     // What the user watches the world with is no part of its state.
     loaded.setChecks(state_->checks);
     loaded.setTracing(state_->trace.tracing);
+    loaded.state_->bodies.succeed(state_->bodies);
     *this = std::move(loaded);
 }
 
