@@ -3,6 +3,7 @@
 #   make check     after an edit: the tests of the engine's rooms and of the API, and the golden runs on one thread
 #   make test      build everything and run all tests
 #   make cairn-view | cairn-bench | cairn-bench-thesis | cairn-validate | programs   build what stands beside the program
+#   make python    build the Python package, install it into build/venv and run a scene with it
 #   make golden    list which golden runs changed; make golden UPDATE=1 renews tests/golden/hashes.json
 #   make sanitize  run the tests under the address, undefined-behaviour and thread sanitizers
 #   make coverage  measure which lines of detection and response the tests run
@@ -21,7 +22,7 @@ SUITE ?= peers
 SECONDS ?= 60
 SIMULATED ?= 3600
 WALL ?= 3600
-SOURCES = $$(find include src apps bench tests examples -name '*.h' -o -name '*.cpp')
+SOURCES = $$(find include src apps bench tests examples python -name '*.h' -o -name '*.cpp')
 CONFIGURE = cmake --preset release --log-level=WARNING
 BUILD = cmake --build --preset release --target
 
@@ -31,7 +32,7 @@ export CCACHE_SLOPPINESS ?= pch_defines,time_macros
 
 COMPANIONS = cairn-view cairn-bench cairn-bench-thesis cairn-validate
 
-.PHONY: run check test golden sanitize coverage fuzz soak thesis bench validate results format tidy install clean \
+.PHONY: run check test python golden sanitize coverage fuzz soak thesis bench validate results format tidy install clean \
     programs $(COMPANIONS)
 
 run:
@@ -53,10 +54,17 @@ check:
 	@ctest --preset release -j$(JOBS) --no-tests=error --label-regex check
 
 test:
-	@tools/install_packages build companions check test
+	@tools/install_packages build companions check test python
 	@$(CONFIGURE) -DCAIRN_REQUIRE_ALL=ON
 	@cmake --build --preset release
 	@ctest --preset release -j$(JOBS) --no-tests=error
+
+python:
+	@tools/install_packages build python
+	@/usr/bin/python3 -m venv --system-site-packages build/venv
+	@build/venv/bin/python -m pip install --quiet --no-build-isolation --no-index --no-deps --disable-pip-version-check \
+	    ./python
+	build/venv/bin/python -c 'import cairn; print(cairn.run("stacks5"))'
 
 golden:
 	@tools/install_packages build check

@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-CODE_FOLDERS = ("include", "src", "apps", "bench", "tests", "examples")
+CODE_FOLDERS = ("include", "src", "apps", "bench", "tests", "examples", "python")
 CPP = (".h", ".cpp")
 
 

@@ -1,0 +1,118 @@
+"""Whole runs: a scene from its beginning to its end, recorded if asked."""
+
+import math
+import time
+from dataclasses import dataclass, field
+from os import fspath
+from typing import Callable, Mapping, Optional, Union
+
+from . import _core
+from ._recording import Recording
+from ._types import FilePath
+
+SceneLike = Union[_core.Scene, FilePath]
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a run came to.
+
+    run: the scene in its world, as it is at the end.
+    statistics: of all time steps together.
+    seconds: wall time of the steps [s].
+    recording: what was recorded, or None.
+    """
+
+    run: _core.SceneRun = field(repr=False)
+    statistics: _core.Statistics = field(repr=False)
+    seconds: float
+    recording: Optional[Recording] = None
+
+    @property
+    def world(self) -> _core.World:
+        """The world at the end."""
+        return self.run.world
+
+    def __repr__(self) -> str:
+        scene, world = self.run.scene, self.world
+        text = (f"{scene.name}: {world.time:.6g} s of {world.body_count} bodies in {self.seconds:.3g} s, "
+                f"{self.statistics.asleep} asleep, largest overlap {1e3 * self.statistics.largest_overlap:.3g} mm")
+        return text + (f", recorded in {self.recording.file}" if self.recording else "")
+
+    def _repr_html_(self) -> str:
+        return f"<p>{self!r}</p>" + (self.recording._repr_html_() if self.recording else "")
+
+
+def scene_of(scene: SceneLike) -> _core.Scene:
+    """A scene as it is, the built-in one with a name, or that of a file. Raises InputError, IoError."""
+    if isinstance(scene, _core.Scene):
+        return scene
+    name = fspath(scene)
+    if isinstance(scene, str) and _core.is_built_in_scene(name):
+        return _core.built_in_scene(name)
+    return _core.read_scene(name)
+
+
+def run(
+    scene: SceneLike,
+    *,
+    duration: Optional[float] = None,
+    record: Optional[FilePath] = None,
+    preset: Union[_core.Preset, str, None] = None,
+    steps_per_second: Optional[float] = None,
+    settings: Optional[Mapping[str, object]] = None,
+    hashes: bool = False,
+    after_frame: Optional[Callable[[_core.SceneRun], None]] = None,
+) -> Result:
+    """Runs a scene to its end.
+
+    scene: a Scene, the name of a built-in one ("stacks5", "tower:20") or a scene file.
+    duration: in place of the scene's [s], > 0.
+    record: file for a recording with 30 frames per simulated second.
+    preset, steps_per_second [1/s], settings: override the scene's, as "threads" or "sweep_limit".
+    hashes: whether every time step's state hash is recorded, so that verify_recording() compares each.
+    after_frame: called with the run after each simulation step of 1/30 s.
+
+    Raises InputError, IoError.
+    """
+    start = scene_of(scene)
+    overrides = _core.SettingOverrides(preset=preset, steps_per_second=steps_per_second, fields=dict(settings or {}))
+    chosen = _core.settings_for(start, overrides)
+    scene_run = _core.SceneRun(start, chosen)
+    if duration is not None:
+        scene_run.set_duration(duration)
+    # A duration such as 0.1 s is not exactly three simulation steps.
+    frames = max(math.ceil(scene_run.scene.duration * _core.simulation_steps_per_second - 1e-6), 1)
+    writer: Optional[_core.RecordingWriter] = None
+    if record is not None:
+        per_frame = scene_run.steps_per_simulation_step if hashes else 0
+        writer = _core.RecordingWriter(record, scene_run.scene, chosen, per_frame)
+        writer.append(_core.capture_frame(scene_run))
+    total, seconds = _simulate(scene_run, frames, writer, hashes, after_frame)
+    if writer is not None:
+        writer.close()
+    return Result(scene_run, total, seconds, Recording(record) if record is not None else None)
+
+
+def _simulate(
+    scene_run: _core.SceneRun,
+    frames: int,
+    writer: Optional[_core.RecordingWriter],
+    hashes: bool,
+    after_frame: Optional[Callable[[_core.SceneRun], None]],
+) -> tuple[_core.Statistics, float]:
+    total = _core.Statistics()
+    seconds = 0.0
+    for _ in range(frames):
+        begin = time.perf_counter()
+        statistics, step_hashes = scene_run.hashed_simulation_step() if hashes else (scene_run.simulation_step(), ())
+        seconds += time.perf_counter() - begin
+        total = total + statistics
+        if writer is not None:
+            frame = _core.capture_frame(scene_run, statistics)
+            writer.append(frame.replace(step_hashes=step_hashes) if hashes else frame)
+        if after_frame is not None:
+            after_frame(scene_run)
+    return total, seconds
+
+

@@ -1,0 +1,159 @@
+/// Scenes: what a run begins with, as data.
+#include "parts.h"
+#include "record.h"
+
+namespace cairn::python {
+
+namespace {
+
+/// The items of a dict, or of a sequence of pairs.
+py::object itemsOf(py::handle value) {
+    if (py::isinstance<py::dict>(value)) return py::list(value.attr("items")());
+    return py::reinterpret_borrow<py::object>(value);
+}
+
+/// A field of pairs that may be given as a dict; it reads as a tuple of pairs.
+template <class Type, class Member>
+void pairsField(Record<Type>& record, const char* name, Member Type::*member, const char* doc) {
+    record.fieldBy(
+        name, [member](const Type& self) -> py::object { return py::tuple(py::cast(self.*member)); },
+        [member](Type& self, py::handle value) { self.*member = itemsOf(value).cast<Member>(); }, doc);
+}
+
+/// The value of a setting as text; switches as the C++ library writes them.
+std::string textOf(py::handle value) {
+    if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
+    if (py::isinstance<py::int_>(value) && py::hasattr(value, "name")) return value.attr("name").cast<std::string>();
+    return py::str(value).cast<std::string>();
+}
+
+void bindSceneBodies(py::module_& module) {
+    using B = SceneBody;
+    Record<B>(module, "SceneBody", "A body of a scene; its index in Scene.bodies is its number in recordings.")
+        .field("shape", &B::shape, "In its own frame.")
+        .field("material", &B::material, "Name of one of Scene.materials.")
+        .field("name", &B::name, "Unique if not empty.")
+        .field("mass", &B::mass, "[kg]")
+        .field("centre_of_mass", &B::centre_of_mass, "As that of BodyDescription.")
+        .field("inertia", &B::inertia, "As that of BodyDescription.")
+        .field("position", &B::position, "Of the shape's frame [m, W].")
+        .field("orientation", &B::orientation, "Shape's frame to W: a quaternion (w, x, y, z).")
+        .field("linear_velocity", &B::linear_velocity, "[m/s, W]")
+        .field("angular_velocity", &B::angular_velocity, "[rad/s, W]")
+        .field("fixed", &B::fixed, "Never moves.")
+        .field("asleep", &B::asleep, "Begins asleep.")
+        .finish(2);
+    Record<SceneJoint>(module, "SceneJoint", "A joint of a scene.")
+        .field("a", &SceneJoint::a, "Index in Scene.bodies.")
+        .field("b", &SceneJoint::b, "Index in Scene.bodies; None = the world.")
+        .field("joint", &SceneJoint::joint, "All else, as the bodies stand at the beginning.")
+        .finish(3);
+    using S = SceneSpring;
+    Record<S>(module, "SceneSpring", "A spring of a scene.")
+        .field("a", &S::a, "Index of the body.")
+        .field("b", &S::b, "Index of the second body; None = a point of the world.")
+        .field("anchor_a", &S::anchor_a, "[m, frame of A]")
+        .field("anchor_b", &S::anchor_b, "[m, frame of B or W]")
+        .field("stiffness", &S::stiffness, "[N/m]")
+        .field("damping", &S::damping, "[N·s/m]")
+        .field("rest_length", &S::rest_length, "[m]")
+        .finish(1);
+}
+
+void bindEvents(py::module_& module) {
+    Record<SetGravity>(module, "SetGravity", "An event sets gravity.")
+        .field("gravity", &SetGravity::gravity, "[m/s², W]")
+        .finish(1);
+    Record<SetVelocity>(module, "SetVelocity", "An event sets a body's velocity.")
+        .field("body", &SetVelocity::body, "Index in Scene.bodies.")
+        .field("velocity", &SetVelocity::velocity, "Linear [m/s, W].")
+        .finish(2);
+    Record<GiveImpulse>(module, "GiveImpulse", "An event gives a body an impulse at its centre of mass.")
+        .field("body", &GiveImpulse::body, "Index in Scene.bodies.")
+        .field("impulse", &GiveImpulse::impulse, "[N·s, W]")
+        .finish(2);
+    Record<SetForce>(module, "SetForce", "An event sets a body's constant force.")
+        .field("body", &SetForce::body, "Index in Scene.bodies.")
+        .field("force", &SetForce::force, "From then on, at the centre of mass [N, W].")
+        .finish(2);
+    Record<SetTorque>(module, "SetTorque", "An event sets a body's constant torque.")
+        .field("body", &SetTorque::body, "Index in Scene.bodies.")
+        .field("torque", &SetTorque::torque, "From then on [N·m, W].")
+        .finish(2);
+    Record<RemoveBody>(module, "RemoveBody", "An event takes a body out of the world.")
+        .field("body", &RemoveBody::body, "Index in Scene.bodies.")
+        .finish(1);
+    Record<SceneEvent>(module, "SceneEvent", "Happens at the first time step that begins at or after its time.")
+        .field("time", &SceneEvent::time, "[s], ≥ 0")
+        .field("action", &SceneEvent::action, "What it does.")
+        .finish(2);
+}
+
+void bindScene(py::module_& module) {
+    Record<Scene> scene(module, "Scene", "Everything of a scene file, in its order.");
+    scene.field("name", &Scene::name, "For messages and recordings.")
+        .field("duration", &Scene::duration, "[s], > 0")
+        .field("gravity", &Scene::gravity, "[m/s², W]")
+        .field("events", &Scene::events, "What happens at times.")
+        .field("materials", &Scene::materials, "What bodies are made of.")
+        .field("default_pair", &Scene::default_pair, "Of materials that have no pair of their own.");
+    pairsField(scene, "pairs", &Scene::pairs, "Names of two materials, and what holds where they touch.");
+    scene.field("bodies", &Scene::bodies, "In the order of their numbers.")
+        .field("springs", &Scene::springs, "Between bodies, or a body and the world.")
+        .field("joints", &Scene::joints, "Between bodies, or a body and the world.")
+        .field("preset", &Scene::preset, "Where the settings begin; None = performance.");
+    pairsField(scene, "settings", &Scene::settings, "Names and values of other settings than the preset's.");
+    scene.finish(2);
+
+    Record<SettingOverrides> overrides(module, "SettingOverrides", "What overrides a scene's own settings.");
+    overrides.field("preset", &SettingOverrides::preset, "In place of the scene's.")
+        .field("steps_per_second", &SettingOverrides::steps_per_second, "In place of the preset's [1/s].")
+        .fieldBy(
+            "fields", [](const SettingOverrides& self) -> py::object { return py::tuple(py::cast(self.fields)); },
+            [](SettingOverrides& self, py::handle value) {
+                self.fields.clear();
+                for (const py::handle item : itemsOf(value)) {
+                    const auto [name, given] = item.cast<std::pair<std::string, py::object>>();
+                    self.fields.emplace_back(name, textOf(given));
+                }
+            },
+            "Names and values of settings; values read as text.")
+        .finish();
+    py::class_<BuiltInScene>(module, "BuiltInScene", "A built-in scene, or a family of them.")
+        .def_readonly("name", &BuiltInScene::name, "As on the command line: 'stacks5', 'tower:N'.")
+        .def_readonly("description", &BuiltInScene::description, "One sentence.")
+        .def_readonly("example", &BuiltInScene::example, "A name that can be given: 'tower:10'.")
+        .def("__repr__", [](const BuiltInScene& self) { return "BuiltInScene('" + std::string(self.name) + "')"; });
+}
+
+void bindFunctions(py::module_& module) {
+    module.def("read_scene", &readScene, py::arg("file"), "Reads a scene file. Raises InputError, IoError.");
+    module.def("parse_scene", &parseScene, py::arg("json"), py::arg("source") = "text",
+               "Reads the text of a scene file; source is shown in messages. Raises InputError.");
+    module.def("write_scene", &writeScene, py::arg("scene"), py::arg("file"), "Writes a scene file. Raises IoError.");
+    module.def("format_scene", &formatScene, py::arg("scene"), "The scene as the text of a scene file.");
+    module.def(
+        "built_in_scenes", [] { return py::tuple(py::cast(builtInScenes())); },
+        "All built-in scenes, in the order in which they are shown.");
+    module.def("built_in_scene", &builtInScene, py::arg("name"),
+               "Such as 'cage384' or 'tower:20'. Raises InputError for an unknown name or a bad number.");
+    module.def("is_built_in_scene", &isBuiltInScene, py::arg("name"), "Whether a built-in scene has the name.");
+    module.def(
+        "settings_for",
+        [](const Scene& scene, const std::optional<SettingOverrides>& overrides) {
+            return settingsFor(scene, overrides.value_or(SettingOverrides{}));
+        },
+        py::arg("scene"), py::arg("overrides") = py::none(),
+        "The settings of a run: preset, then the scene's, then the overrides. Raises InputError.");
+}
+
+}  // namespace
+
+void bindSceneRecords(py::module_& module) {
+    bindSceneBodies(module);
+    bindEvents(module);
+    bindScene(module);
+    bindFunctions(module);
+}
+
+}  // namespace cairn::python

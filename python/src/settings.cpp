@@ -1,0 +1,205 @@
+/// The settings of a world; what each means stands in the table of fields of the C++ library.
+#include <algorithm>
+
+#include "parts.h"
+#include "record.h"
+
+namespace cairn::python {
+
+namespace {
+
+/// A struct of settings. The documentation of its fields is that of settingFields().
+template <class Stage>
+class SettingRecord {
+  public:
+    SettingRecord(py::module_& module, const char* name, const char* doc) : record_(module, name, doc) {}
+
+    template <class Member>
+    SettingRecord& field(const char* name, Member Stage::*member) {
+        const auto fields = settingFields();
+        const auto found = std::ranges::find(fields, name, &SettingField::name);
+        if (found == fields.end()) throw std::logic_error(std::string("no setting is called ") + name);
+        std::string doc(found->meaning);
+        if (!found->unit.empty()) doc += " [" + std::string(found->unit) + "]";
+        record_.field(name, member, doc.c_str());
+        return *this;
+    }
+    void finish() { record_.finish(); }
+
+  private:
+    Record<Stage> record_;
+};
+
+void bindStages(py::module_& module) {
+    using D = DetectionSettings;
+    SettingRecord<D>(module, "DetectionSettings", "Broad and narrow phase.")
+        .field("broad_phase", &D::broad_phase)
+        .field("contact_margin", &D::contact_margin)
+        .finish();
+    using C = CorrectionSettings;
+    SettingRecord<C>(module, "CorrectionSettings", "Penetration correction.")
+        .field("correction", &C::correction)
+        .field("penetration_threshold", &C::penetration_threshold)
+        .field("remaining_penetration", &C::remaining_penetration)
+        .field("spread_levels", &C::spread_levels)
+        .field("correction_rounds", &C::correction_rounds)
+        .finish();
+    using S = SleepSettings;
+    SettingRecord<S>(module, "SleepSettings", "Sleeping.")
+        .field("sleeping", &S::sleeping)
+        .field("sleep_threshold", &S::sleep_threshold)
+        .field("motion_bias", &S::motion_bias)
+        .field("motion_limit", &S::motion_limit)
+        .finish();
+    using G = GravityDampingSettings;
+    SettingRecord<G>(module, "GravityDampingSettings", "Velocity-dependent gravity damping.")
+        .field("damping", &G::damping)
+        .field("damping_threshold", &G::damping_threshold)
+        .finish();
+    using I = IntegrationSettings;
+    SettingRecord<I>(module, "IntegrationSettings", "Motion of free bodies.")
+        .field("gyroscopic", &I::gyroscopic)
+        .field("exact_flight", &I::exact_flight)
+        .finish();
+    using P = ParallelSettings;
+    SettingRecord<P>(module, "ParallelSettings", "Threads; results do not depend on them.")
+        .field("threads", &P::threads)
+        .field("large_batch", &P::large_batch)
+        .finish();
+    SettingRecord<DiagnosticsSettings>(module, "DiagnosticsSettings", "What a step measures besides.")
+        .field("diagnostics", &DiagnosticsSettings::diagnostics)
+        .finish();
+    SettingRecord<LimitSettings>(module, "LimitSettings", "What a world refuses to grow beyond.")
+        .field("body_limit", &LimitSettings::body_limit)
+        .finish();
+}
+
+void bindResolution(py::module_& module) {
+    using R = ResolutionSettings;
+    SettingRecord<R>(module, "ResolutionSettings", "Contact resolution and shock propagation.")
+        .field("resolution", &R::resolution)
+        .field("order", &R::order)
+        .field("resolution_threshold", &R::resolution_threshold)
+        .field("restitution_threshold", &R::restitution_threshold)
+        .field("restitution_law", &R::restitution_law)
+        .field("restitution_speed", &R::restitution_speed)
+        .field("impacts", &R::impacts)
+        .field("global_iterations", &R::global_iterations)
+        .field("shock_propagation", &R::shock_propagation)
+        .field("shock_iterations", &R::shock_iterations)
+        .field("queue_switch", &R::queue_switch)
+        .field("sweep_limit", &R::sweep_limit)
+        .field("moving_sweep_limit", &R::moving_sweep_limit)
+        .field("small_sweep_part", &R::small_sweep_part)
+        .field("sliding_part", &R::sliding_part)
+        .field("visit_limit", &R::visit_limit)
+        .field("sweep_tolerance", &R::sweep_tolerance)
+        .field("direct_limit", &R::direct_limit)
+        .field("direct_pairs", &R::direct_pairs)
+        .field("wake_speed", &R::wake_speed)
+        .field("sweeps", &R::sweeps)
+        .finish();
+}
+
+/// The value of a field: enums by name. @throws TypeError
+SettingValue settingValue(const std::string& name, py::handle value) {
+    if (py::hasattr(value, "name") && py::isinstance<py::int_>(value)) return value.attr("name").cast<std::string>();
+    try {
+        return value.cast<SettingValue>();
+    } catch (const py::cast_error&) {
+        refuseField("Settings", name, value);
+    }
+}
+
+Settings settingsReplaced(const py::object& self, const py::kwargs& changes) {
+    const py::tuple stages = py::type::of(self).attr("__match_args__");
+    py::dict whole;
+    py::dict fields;
+    for (const auto& [name, value] : changes) {
+        // Some stages are called like a field of theirs.
+        const bool is_stage = stages.contains(name) && py::type::of(value).is(py::type::of(self.attr(name)));
+        (is_stage ? whole : fields)[name] = value;
+    }
+    for (const py::handle name : stages) {
+        if (!whole.contains(name)) whole[name] = self.attr(name);
+    }
+    auto settings = py::type::of(self)(**whole).cast<Settings>();
+    for (const auto& [name, value] : fields) {
+        const auto field = name.cast<std::string>();
+        setField(settings, field, settingValue(field, value));
+    }
+    return settings;
+}
+
+void bindAllSettings(py::module_& module) {
+    Record<Settings> record(module, "Settings", "All settings of a world, one record per stage.");
+    record.field("steps_per_second", &Settings::steps_per_second, "Time steps per simulated second, 30 to 1e6 [1/s].")
+        .field("detection", &Settings::detection, "Broad and narrow phase.")
+        .field("correction", &Settings::correction, "Penetration correction.")
+        .field("resolution", &Settings::resolution, "Contact resolution and shock propagation.")
+        .field("sleep", &Settings::sleep, "Sleeping.")
+        .field("gravity_damping", &Settings::gravity_damping, "Velocity-dependent gravity damping.")
+        .field("integration", &Settings::integration, "Motion of free bodies.")
+        .field("parallel", &Settings::parallel, "Threads.")
+        .field("limits", &Settings::limits, "What a world refuses to grow beyond.")
+        .field("diagnostics", &Settings::diagnostics, "What a step measures besides.");
+    py::class_<Settings>& settings = record.finish();
+    settings.def_property_readonly("time_step", &Settings::timeStep, "The length of a time step [s].")
+        .def_static("preset", &Settings::preset, py::arg("preset"), py::arg("steps_per_second") = 0.0,
+                    py::arg("gravity") = 10.0,
+                    "A preset, its speed thresholds scaled to the time step and to gravity [m/s²]. Raises InputError.");
+    settings.attr("replace") =
+        py::cpp_function(&settingsReplaced, py::name("replace"), py::is_method(settings),
+                         "A copy in which the named fields, of any stage, have other values. Raises InputError.");
+}
+
+void bindSettingFields(py::module_& module) {
+    py::class_<SettingField>(module, "SettingField", "One field of Settings, by name.")
+        .def_readonly("name", &SettingField::name, "Unique, as in scene files.")
+        .def_readonly("stage", &SettingField::stage, "What it belongs to.")
+        .def_readonly("unit", &SettingField::unit, "SI unit, or empty.")
+        .def_readonly("meaning", &SettingField::meaning, "One sentence.")
+        .def_readonly("minimum", &SettingField::minimum, "Smallest allowed number.")
+        .def_readonly("maximum", &SettingField::maximum, "Largest allowed number.")
+        .def_property_readonly(
+            "choices",
+            [](const SettingField& self) {
+                return py::tuple(py::cast(std::vector<std::string>(self.choices.begin(), self.choices.end())));
+            },
+            "Allowed names.")
+        .def(
+            "get", [](const SettingField& self, const Settings& settings) { return self.get(settings); },
+            py::arg("settings"), "Its value.")
+        .def("__repr__", [](const SettingField& self) { return "SettingField('" + std::string(self.name) + "')"; });
+    module.def(
+        "setting_fields",
+        [] {
+            const auto fields = settingFields();
+            return py::tuple(py::cast(std::vector<SettingField>(fields.begin(), fields.end())));
+        },
+        "All fields, in a fixed order.");
+    module.def(
+        "preset_names",
+        [] {
+            const auto names = presetNames();
+            return py::tuple(py::cast(std::vector<std::string>(names.begin(), names.end())));
+        },
+        "The name of each preset, in the order of the enumeration.");
+    module.def("get_field", &getField, py::arg("settings"), py::arg("name"),
+               "Reads one field. Raises InputError for an unknown name.");
+    module.def(
+        "validate", [](const Settings& settings, const Vec3& gravity) { validate(settings, gravity); },
+        py::arg("settings"), py::arg("gravity"),
+        "Refuses settings that contradict each other. gravity: sum of all accelerations [m/s², W]. Raises InputError.");
+}
+
+}  // namespace
+
+void bindSettings(py::module_& module) {
+    bindStages(module);
+    bindResolution(module);
+    bindAllSettings(module);
+    bindSettingFields(module);
+}
+
+}  // namespace cairn::python
