@@ -4,6 +4,7 @@
 #   make test      build everything and run all tests
 #   make cairn-view | cairn-bench | cairn-bench-thesis | cairn-validate | programs   build what stands beside the program
 #   make python    build the Python package, install it into build/venv and run a scene with it
+#   make wheel     pack the Python package so that numpy is all it needs: build/wheel
 #   make golden    list which golden runs changed; make golden UPDATE=1 renews tests/golden/hashes.json
 #   make sanitize  run the tests under the address, undefined-behaviour and thread sanitizers
 #   make coverage  measure which lines of detection and response the tests run
@@ -32,7 +33,7 @@ export CCACHE_SLOPPINESS ?= pch_defines,time_macros
 
 COMPANIONS = cairn-view cairn-bench cairn-bench-thesis cairn-validate
 
-.PHONY: run check test python golden sanitize coverage fuzz soak thesis bench validate results format tidy install clean \
+.PHONY: run check test python wheel golden sanitize coverage fuzz soak thesis bench validate results format tidy install clean \
     programs $(COMPANIONS)
 
 run:
@@ -65,6 +66,10 @@ python:
 	@build/venv/bin/python -m pip install --quiet --no-build-isolation --no-index --no-deps --disable-pip-version-check \
 	    ./python
 	build/venv/bin/python -c 'import cairn; print(cairn.run("stacks5"))'
+
+wheel:
+	@tools/install_packages build python
+	tools/make_wheel
 
 golden:
 	@tools/install_packages build check
