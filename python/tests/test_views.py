@@ -153,5 +153,5 @@ class OldArrays(RuleBasedStateMachine):
 
 
 TestOldArrays = OldArrays.TestCase
-TestOldArrays.settings = settings(max_examples=30, stateful_step_count=25, deadline=None, derandomize=True,
+TestOldArrays.settings = settings(max_examples=20, stateful_step_count=25, deadline=None, derandomize=True,
                                   suppress_health_check=list(HealthCheck))

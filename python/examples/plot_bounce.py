@@ -1,0 +1,61 @@
+"""
+A ball that bounces
+===================
+
+A ball falls from one metre. After each bounce it rises to the square of the coefficient of restitution times the height
+that it fell from; the time between two bounces shrinks by the coefficient itself.
+"""
+
+import os
+
+import cairn
+import matplotlib.pyplot as plt
+import numpy as np
+
+SHORT = "CAIRN_SHORT" in os.environ
+
+# %%
+# The preset for accuracy, with bodies that follow the parabola exactly and no damping of gravity, so that what is left
+# is the law of the impact.
+settings = cairn.Settings.preset("accuracy", gravity=9.81).replace(
+    exact_flight=True, restitution_speed="touching", correction_rounds=1, damping=0, sleeping=False
+)
+
+
+def heights(restitution: float, duration: float) -> tuple[list[float], list[float]]:
+    """Of the lowest point over time [s], [m]."""
+    world = cairn.World(settings)
+    world.gravity = 0, 0, -9.81
+    rubber = world.add_material("rubber", 1100)
+    world.set_default_pair_properties(restitution=restitution)
+    world.add_body(cairn.HalfSpace(), rubber, fixed=True)
+    ball = world.add_body(cairn.Sphere(0.05), rubber, position=[0, 0, 1.05])
+    times, z = [], []
+    while world.time < duration:
+        world.step(4)
+        times.append(world.time)
+        z.append(float(world.bodies.centre_of_mass[ball.index, 2]) - 0.05)
+    return times, z
+
+
+# %%
+# The dashed lines are the heights that the closed form predicts.
+fig, axes = plt.subplots(figsize=(7, 4))
+for restitution, style in ((0.9, "-"), (0.7, "-.")):
+    times, z = heights(restitution, 1 if SHORT else 3)
+    axes.plot(times, z, style, label=f"coefficient of restitution {restitution}")
+    peaks = np.array([restitution ** (2 * n) for n in range(1, 4)])
+    # Sampled every 4 steps of 1/960 s, a peak is missed by less than 0.1 mm.
+    fall = np.sqrt(2 / 9.81)
+    ends = fall * (1 + 2 * np.cumsum([restitution**n for n in range(1, 4)]))
+    for n, peak in enumerate(peaks):
+        if ends[n] < times[-1]:
+            between = [h for t, h in zip(times, z) if ends[n] - 2 * fall * restitution ** (n + 1) < t < ends[n]]
+            assert abs(max(between) - peak) < 1e-3
+        label = "closed form" if style == "-." and n == 0 else None
+        axes.axhline(peak, color="0.6", linewidth=0.8, linestyle="--", zorder=0, label=label)
+axes.set_xlabel("time [s]")
+axes.set_ylabel("height above the ground [m]")
+axes.legend()
+fig.tight_layout()
+plt.show()
