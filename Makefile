@@ -5,6 +5,7 @@
 #   make cairn-view | cairn-bench | cairn-bench-thesis | cairn-validate | programs   build what stands beside the program
 #   make python    build the Python package, install it into build/venv and run a scene with it
 #   make wheel     pack the Python package so that numpy is all it needs: build/wheel
+#   make site      build the site of the documents, with examples and references: build/site/html
 #   make golden    list which golden runs changed; make golden UPDATE=1 renews tests/golden/hashes.json
 #   make sanitize  run the tests under the address, undefined-behaviour and thread sanitizers
 #   make coverage  measure which lines of detection and response the tests run
@@ -33,7 +34,7 @@ export CCACHE_SLOPPINESS ?= pch_defines,time_macros
 
 COMPANIONS = cairn-view cairn-bench cairn-bench-thesis cairn-validate
 
-.PHONY: run check test python wheel golden sanitize coverage fuzz soak thesis bench validate results format tidy install clean \
+.PHONY: run check test python wheel site golden sanitize coverage fuzz soak thesis bench validate results format tidy install clean \
     programs $(COMPANIONS)
 
 run:
@@ -70,6 +71,12 @@ python:
 wheel:
 	@tools/install_packages build python
 	tools/make_wheel
+
+site:
+	@tools/install_packages build python site
+	@$(CONFIGURE)
+	@$(BUILD) cairn_python
+	@PYTHONPATH=build/release/python tools/make_site
 
 golden:
 	@tools/install_packages build check

@@ -1,13 +1,13 @@
 """Cairn: rigid-body dynamics whose piles and stacks stand.
 
-    >>> import cairn
-    >>> world = cairn.World()
-    >>> world.gravity = 0, 0, -10
-    >>> oak = world.add_material("oak", 800)
-    >>> ground = world.add_body(cairn.HalfSpace(), oak, fixed=True)
-    >>> box = world.add_body(cairn.Box([0.2, 0.2, 0.2]), oak, position=[0, 0, 1])
-    >>> while not world.is_asleep(box):
-    ...     world.step()
+>>> import cairn
+>>> world = cairn.World()
+>>> world.gravity = 0, 0, -10
+>>> oak = world.add_material("oak", 800)
+>>> ground = world.add_body(cairn.HalfSpace(), oak, fixed=True)
+>>> box = world.add_body(cairn.Box([0.2, 0.2, 0.2]), oak, position=[0, 0, 1])
+>>> while not world.is_asleep(box):
+...     world.step()
 
 Lengths are metres, times seconds, masses kilograms; z is up where gravity is (0, 0, -10). `cairn.run("stacks5")` runs a
 whole scene.

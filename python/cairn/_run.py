@@ -17,10 +17,10 @@ SceneLike = Union[_core.Scene, FilePath]
 class Result:
     """What a run came to.
 
-    run: the scene in its world, as it is at the end.
-    statistics: of all time steps together.
-    seconds: wall time of the steps [s].
-    recording: what was recorded, or None.
+    - run: the scene in its world, as it is at the end.
+    - statistics: of all time steps together.
+    - seconds: wall time of the steps [s].
+    - recording: what was recorded, or None.
     """
 
     run: _core.SceneRun = field(repr=False)
@@ -66,12 +66,12 @@ def run(
 ) -> Result:
     """Runs a scene to its end.
 
-    scene: a Scene, the name of a built-in one ("stacks5", "tower:20") or a scene file.
-    duration: in place of the scene's [s], > 0.
-    record: file for a recording with 30 frames per simulated second.
-    preset, steps_per_second [1/s], settings: override the scene's, as "threads" or "sweep_limit".
-    hashes: whether every time step's state hash is recorded, so that verify_recording() compares each.
-    after_frame: called with the run after each simulation step of 1/30 s.
+    - scene: a Scene, the name of a built-in one ("stacks5", "tower:20") or a scene file.
+    - duration: in place of the scene's [s], > 0.
+    - record: file for a recording with 30 frames per simulated second.
+    - preset, steps_per_second [1/s], settings: override the scene's, as "threads" or "sweep_limit".
+    - hashes: whether every time step's state hash is recorded, so that verify_recording() compares each.
+    - after_frame: called with the run after each simulation step of 1/30 s.
 
     Raises InputError, IoError.
     """

@@ -69,14 +69,14 @@ def sweep(
 ) -> Table:
     """Makes a world for each choice of parameters and measures it, on all processors.
 
-    make: called with the parameters by name; returns what `measure` takes, such as a World, a SceneRun or a Scene.
-    parameters: lists of values by name, of which every combination is taken, or a list of dicts.
-    measure: steps what was made and returns a number, a text, a list of them or a dict of named ones. Steps let other
-        workers run, so that worlds of one thread each keep all processors busy. It gets what `make` returned to itself:
-        each run is equal, bit by bit, to the same run alone.
-    workers: runs at a time; None = one per processor.
-    store: a file to which every row is added when it is there (JSON, one a line). Rows that stand in it already are
-        taken from it, so that a sweep goes on where it stopped.
+    - make: called with the parameters by name; returns what `measure` takes, such as a World, a SceneRun or a Scene.
+    - parameters: lists of values by name, of which every combination is taken, or a list of dicts.
+    - measure: steps what was made and returns a number, a text, a list of them or a dict of named ones. Steps let other
+      workers run, so that worlds of one thread each keep all processors busy. It gets what `make` returned to itself:
+      each run is equal, bit by bit, to the same run alone.
+    - workers: runs at a time; None = one per processor.
+    - store: a file to which every row is added when it is there (JSON, one a line). Rows that stand in it already are
+      taken from it, so that a sweep goes on where it stopped.
 
     Returns the rows in the order of the parameters. What `make` or `measure` raise ends the sweep.
     """

@@ -1,0 +1,35 @@
+"""The site: what tools/make_site has gathered, with the references of C++ and Python and the gallery."""
+
+import os
+from pathlib import Path
+
+BUILT = Path(os.environ["CAIRN_SITE"])
+
+project = "Cairn"
+author = "The authors of Cairn"
+extensions = ["myst_parser", "sphinx.ext.autodoc", "breathe", "sphinx_gallery.gen_gallery"]
+html_theme = "furo"
+html_title = "Cairn"
+html_show_sphinx = False
+html_copy_source = False
+
+root_doc = "README"
+include_patterns = ["*.md", "docs/*.md", "docs/**/*.md", "reference/*.rst", "gallery/*.rst"]
+myst_heading_anchors = 4
+
+breathe_projects = {"cairn": str(BUILT / "doxygen" / "xml")}
+breathe_default_project = "cairn"
+
+autodoc_member_order = "bysource"
+
+sphinx_gallery_conf = {
+    "examples_dirs": str(BUILT / "source" / "examples_of_python"),
+    "gallery_dirs": "gallery",
+    "filename_pattern": r"plot_.*\.py",
+    "show_memory": False,
+    "min_reported_time": 1e9,
+    "abort_on_example_error": True,
+}
+
+# Headers declare what others define, and pages may begin below the first level.
+suppress_warnings = ["myst.header", "cpp.duplicate_declaration"]
