@@ -162,14 +162,22 @@ void PairTable::findBounds(const PairsInput& input) {
 
 /// @param part in: its pairs; out: what was found of them
 void PairTable::detectPairs(const PairsInput& input, std::span<const Contact> last, FoundContacts& part) {
+    const bool foresees = range_.foresight.time > 0;
     Manifold manifold;
     for (ContactPair& pair : near_pairs_.pairs().subspan(part.pair_begin, part.pair_end - part.pair_begin)) {
+        // Most pairs are only near each other, and this is quickly told.
+        if (!bounds_[pair.a].overlaps(bounds_[pair.b])) {
+            pair.count = 0;
+            pair.ahead = false;
+            pair.first = static_cast<std::uint32_t>(part.count);
+            continue;
+        }
         if (!mayTouch(input.bodies, input.excluded, pair)) {
             pair.count = ContactPair::untested;
             continue;
         }
         const std::size_t first = part.count;
-        const bool ahead = ahead_[pair.a].reach > 0 || ahead_[pair.b].reach > 0;
+        const bool ahead = foresees && (ahead_[pair.a].reach > 0 || ahead_[pair.b].reach > 0);
         const bool known = (unmoved_[pair.a] & unmoved_[pair.b]) != 0 && pair.isTested() && !ahead && !pair.ahead;
         pair.ahead = ahead;
         if (known) {
@@ -177,11 +185,9 @@ void PairTable::detectPairs(const PairsInput& input, std::span<const Contact> la
         } else {
             const auto before = pair.touches() ? last.subspan(pair.first, pair.count) : std::span<const Contact>();
             const std::size_t begin = part.found.size();
-            if (bounds_[pair.a].overlaps(bounds_[pair.b])) {
-                collidePair(input.bodies, pair, range_, {input.bodies, range_.foresight, pair, ahead_}, manifold,
-                            part.found);
-                inheritImpulses(input.bodies, before, std::span(part.found).subspan(begin));
-            }
+            collidePair(input.bodies, pair, range_, {input.bodies, range_.foresight, pair, ahead_}, manifold,
+                        part.found);
+            inheritImpulses(input.bodies, before, std::span(part.found).subspan(begin));
             pair.count = static_cast<std::uint32_t>(part.found.size() - begin);
             part.add(begin, pair.count, false);
         }
