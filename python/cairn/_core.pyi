@@ -76,6 +76,8 @@ class EventKind(enum.IntEnum):
     fell_asleep = 4
     frozen = 5
     joint_broke = 6
+    sensor_entered = 7
+    sensor_left = 8
 
 class EventLevel(enum.IntEnum):
     """Which events a world collects; each level has those before it."""
@@ -134,6 +136,7 @@ class Preset(enum.IntEnum):
     accuracy = 1
     thesis = 2
     thesis_accuracy = 3
+    robust = 4
 
 class BroadPhaseKind(enum.IntEnum):
     """How candidates for contacts are found."""
@@ -597,13 +600,22 @@ class JointInfo(_Record):
 class DetectionSettings(_Record):
     """Broad and narrow phase."""
 
-    def __init__(self, broad_phase: Union[BroadPhaseKind, str] = ..., contact_margin: float = ...) -> None: ...
+    def __init__(
+        self,
+        broad_phase: Union[BroadPhaseKind, str] = ...,
+        contact_margin: float = ...,
+        speculative_contacts: bool = ...,
+    ) -> None: ...
     @property
     def broad_phase(self) -> BroadPhaseKind:
         """how pairs of near bodies are found"""
     @property
     def contact_margin(self) -> float:
-        """contacts are reported up to this distance before touching [m]"""
+        """contacts are reported up to this distance before touching; 0 without penetration_threshold = a sixteenth of
+        the overlap allowed [m]"""
+    @property
+    def speculative_contacts(self) -> bool:
+        """finds contacts of bodies that would meet within the step, too"""
 
 class CorrectionSettings(_Record):
     """Penetration correction."""
@@ -612,6 +624,7 @@ class CorrectionSettings(_Record):
         self,
         correction: Union[CorrectionKind, str] = ...,
         penetration_threshold: float = ...,
+        allowed_overlap: float = ...,
         remaining_penetration: float = ...,
         spread_levels: int = ...,
         correction_rounds: int = ...,
@@ -621,7 +634,10 @@ class CorrectionSettings(_Record):
         """algorithm of the penetration correction"""
     @property
     def penetration_threshold(self) -> float:
-        """overlap above which a contact is corrected [m]"""
+        """overlap above which a contact is corrected; 0 = allowed_overlap [m]"""
+    @property
+    def allowed_overlap(self) -> float:
+        """the same as part of the smaller body's smallest extent, where penetration_threshold is 0"""
     @property
     def remaining_penetration(self) -> float:
         """part of the threshold that a correction leaves (2.5.4)"""
@@ -650,6 +666,7 @@ class ResolutionSettings(_Record):
         queue_switch: int = ...,
         sweep_limit: int = ...,
         moving_sweep_limit: int = ...,
+        moving_tolerance: float = ...,
         small_sweep_part: float = ...,
         sliding_part: float = ...,
         visit_limit: int = ...,
@@ -698,6 +715,9 @@ class ResolutionSettings(_Record):
     @property
     def moving_sweep_limit(self) -> int:
         """the same for batches where a contact closes faster than restitution_threshold"""
+    @property
+    def moving_tolerance(self) -> float:
+        """batches that move are swept until about this part of the change is left; 0 = moving_sweep_limit sweeps"""
     @property
     def small_sweep_part(self) -> float:
         """part of moving_sweep_limit that is for batches of fewer than 1024 contacts, at least one sweep"""
@@ -897,6 +917,7 @@ class Diagnostics(_Record):
         energy_restitution: float = ...,
         energy_joints: float = ...,
         energy_correction: float = ...,
+        energy_drives: float = ...,
         energy_sleep: float = ...,
         energy_error: float = ...,
         signorini: float = ...,
@@ -951,6 +972,9 @@ class Diagnostics(_Record):
     @property
     def energy_correction(self) -> float:
         """Potential energy by the penetration correction [J]."""
+    @property
+    def energy_drives(self) -> float:
+        """Of bodies that move by a law, and of a frame that does [J]."""
     @property
     def energy_sleep(self) -> float:
         """Of bodies that fell asleep [J]."""

@@ -43,7 +43,8 @@ void bindEnum(py::module_& module, std::initializer_list<const char*> names, con
 }
 
 void bindEnumsOfSettings(py::module_& module) {
-    bindEnum<Preset>(module, {"performance", "accuracy", "thesis", "thesis_accuracy"}, "Where all settings begin.");
+    bindEnum<Preset>(module, {"performance", "accuracy", "thesis", "thesis_accuracy", "robust"},
+                     "Where all settings begin.");
     bindEnum<BroadPhaseKind>(module, {"hash_grids", "all_pairs"}, "How candidates for contacts are found.");
     bindEnum<CorrectionKind>(module, {"propagated", "none", "position_sweeps"}, "Which penetration correction runs.");
     bindEnum<ResolutionKind>(module, {"impulse_queue", "sweep", "accelerated_sweeps", "none"},
@@ -80,9 +81,10 @@ void bindEnums(py::module_& module) {
     bindEnum<WakeReason>(module,
                          {"none", "changed", "displaced", "struck", "neighbour_removed", "support_lost", "floating"},
                          "Why a body woke.");
-    bindEnum<EventKind>(
-        module, {"contact_begun", "contact_persisted", "contact_ended", "woke", "fell_asleep", "frozen", "joint_broke"},
-        "What happened.");
+    bindEnum<EventKind>(module,
+                        {"contact_begun", "contact_persisted", "contact_ended", "woke", "fell_asleep", "frozen",
+                         "joint_broke", "sensor_entered", "sensor_left"},
+                        "What happened.");
     bindEnum<EventLevel>(module, {"none", "changes", "all"},
                          "Which events a world collects; each level has those before it.");
     bindEnum<JointKind>(module, {"distance", "rope", "ball", "hinge", "slider", "fixed"}, "What a joint keeps.");

@@ -35,11 +35,13 @@ void bindStages(py::module_& module) {
     SettingRecord<D>(module, "DetectionSettings", "Broad and narrow phase.")
         .field("broad_phase", &D::broad_phase)
         .field("contact_margin", &D::contact_margin)
+        .field("speculative_contacts", &D::speculative_contacts)
         .finish();
     using C = CorrectionSettings;
     SettingRecord<C>(module, "CorrectionSettings", "Penetration correction.")
         .field("correction", &C::correction)
         .field("penetration_threshold", &C::penetration_threshold)
+        .field("allowed_overlap", &C::allowed_overlap)
         .field("remaining_penetration", &C::remaining_penetration)
         .field("spread_levels", &C::spread_levels)
         .field("correction_rounds", &C::correction_rounds)
@@ -90,6 +92,7 @@ void bindResolution(py::module_& module) {
         .field("queue_switch", &R::queue_switch)
         .field("sweep_limit", &R::sweep_limit)
         .field("moving_sweep_limit", &R::moving_sweep_limit)
+        .field("moving_tolerance", &R::moving_tolerance)
         .field("small_sweep_part", &R::small_sweep_part)
         .field("sliding_part", &R::sliding_part)
         .field("visit_limit", &R::visit_limit)
