@@ -8,12 +8,13 @@ from typing import Any, Iterator, Mapping, Optional, Sequence, TypeVar, Union, o
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._types import EventAction, FilePath, Floats, Ids, SettingValue, Shape, Structured
+from ._types import EventAction, FilePath, Floats, Ids, Motion, SettingValue, Shape, Structured
 
 _Self = TypeVar("_Self")
 
 version: str
 stage_names: tuple[str, ...]
+most_groups: int
 simulation_steps_per_second: float
 body_id_dtype: np.dtype[np.void]
 contact_dtype: np.dtype[np.void]
@@ -95,6 +96,24 @@ class JointKind(enum.IntEnum):
     hinge = 3
     slider = 4
     fixed = 5
+
+class Touch(enum.IntEnum):
+    """Whether two bodies may touch."""
+
+    never = 0
+    always = 1
+
+class TableEnd(enum.IntEnum):
+    """What a table of motion does after its last time."""
+
+    hold = 0
+    repeat = 1
+
+class Baseline(enum.IntEnum):
+    """How an accelerogram is brought to an end."""
+
+    none = 0
+    at_rest = 1
 
 class Stage(enum.IntEnum):
     """The nine stages of a time step, in order."""
@@ -397,6 +416,15 @@ class BodyDescription(_Record):
         fixed: bool = ...,
         asleep: bool = ...,
         name: str = ...,
+        groups: Sequence[GroupId] = ...,
+        sensor: bool = ...,
+        gravity_factor: float = ...,
+        linear_damping: float = ...,
+        angular_damping: float = ...,
+        user_data: int = ...,
+        motion: Optional[Motion] = ...,
+        pivot: ArrayLike = ...,
+        surface_velocity: ArrayLike = ...,
     ) -> None: ...
     @property
     def shape(self) -> Shape:
@@ -431,6 +459,33 @@ class BodyDescription(_Record):
     @property
     def name(self) -> str:
         """Free, for messages and viewers."""
+    @property
+    def groups(self) -> tuple[GroupId, ...]:
+        """Any number; none = touches the bodies of all groups."""
+    @property
+    def sensor(self) -> bool:
+        """Touches nobody; World.sensed() and events say who is inside."""
+    @property
+    def gravity_factor(self) -> float:
+        """Of the global accelerations that it feels, -1e3 to 1e3; 0 = weightless."""
+    @property
+    def linear_damping(self) -> float:
+        """Rate at which the linear velocity decays [1/s], 0 to 1e6."""
+    @property
+    def angular_damping(self) -> float:
+        """Rate at which the angular velocity decays [1/s], 0 to 1e6."""
+    @property
+    def user_data(self) -> int:
+        """A number of the user's own, 0 to 2⁶⁴ - 1."""
+    @property
+    def motion(self) -> Optional[Motion]:
+        """Of a fixed body: the law by which it moves."""
+    @property
+    def pivot(self) -> Floats:
+        """Of the motion [m, frame of the shape]."""
+    @property
+    def surface_velocity(self) -> Floats:
+        """Of a fixed body: with which its surface runs over it [m/s, frame of the shape]."""
 
 class SpringDescription(_Record):
     """A damped spring between two points."""
@@ -596,6 +651,259 @@ class JointInfo(_Record):
     @property
     def torque(self) -> Floats:
         """The angular impulse divided by the time step [N·m, W]."""
+
+class Ray(_Record):
+    """A half line, or a line with an end."""
+
+    def __init__(self, origin: ArrayLike = ..., direction: ArrayLike = ..., reach: float = ...) -> None: ...
+    @property
+    def origin(self) -> Floats:
+        """[m, W]"""
+    @property
+    def direction(self) -> Floats:
+        """[W], of any length but zero."""
+    @property
+    def reach(self) -> float:
+        """Farthest distance of a hit [m], ≥ 0."""
+
+class SurfaceHit(_Record):
+    """Where a ray first meets a shape; one that begins inside has the distance 0."""
+
+    def __init__(
+        self,
+        distance: float = ...,
+        point: ArrayLike = ...,
+        normal: ArrayLike = ...,
+        part: int = ...,
+    ) -> None: ...
+    @property
+    def distance(self) -> float:
+        """From the origin of the ray [m]."""
+    @property
+    def point(self) -> Floats:
+        """[m, W]"""
+    @property
+    def normal(self) -> Floats:
+        """Of the surface: unit, outward, W."""
+    @property
+    def part(self) -> int:
+        """Index in Compound.parts."""
+
+class ShapeHit(_Record):
+    """Where a shape that moves without turning first touches another; those that touch at the beginning have the
+    distance 0."""
+
+    def __init__(
+        self,
+        distance: float = ...,
+        point: ArrayLike = ...,
+        normal: ArrayLike = ...,
+        moving_part: int = ...,
+        part: int = ...,
+    ) -> None: ...
+    @property
+    def distance(self) -> float:
+        """That the moving shape goes until then [m]."""
+    @property
+    def point(self) -> Floats:
+        """On the other shape [m, W]; one of many where faces or edges touch."""
+    @property
+    def normal(self) -> Floats:
+        """Unit, from the other shape to the moving one, W."""
+    @property
+    def moving_part(self) -> int:
+        """Of the moving shape."""
+    @property
+    def part(self) -> int:
+        """Of the other shape."""
+
+class RayHit(SurfaceHit):
+    """A body that a ray hits."""
+
+    def __init__(
+        self,
+        distance: float = ...,
+        point: ArrayLike = ...,
+        normal: ArrayLike = ...,
+        part: int = ...,
+        body: BodyId = ...,
+    ) -> None: ...
+    @property
+    def body(self) -> BodyId:
+        """Which one."""
+
+class BodyHit(ShapeHit):
+    """A body that a moving shape hits."""
+
+    def __init__(
+        self,
+        distance: float = ...,
+        point: ArrayLike = ...,
+        normal: ArrayLike = ...,
+        moving_part: int = ...,
+        part: int = ...,
+        body: BodyId = ...,
+    ) -> None: ...
+    @property
+    def body(self) -> BodyId:
+        """Which one."""
+
+class ClosestPoints(_Record):
+    """The points in which two shapes are closest, or overlap deepest."""
+
+    def __init__(
+        self,
+        distance: float = ...,
+        on_a: ArrayLike = ...,
+        on_b: ArrayLike = ...,
+        normal: ArrayLike = ...,
+        part_a: int = ...,
+        part_b: int = ...,
+    ) -> None: ...
+    @property
+    def distance(self) -> float:
+        """Along the normal [m]; negative = overlap."""
+    @property
+    def on_a(self) -> Floats:
+        """On the surface of A [m, W]."""
+    @property
+    def on_b(self) -> Floats:
+        """On the surface of B [m, W]."""
+    @property
+    def normal(self) -> Floats:
+        """Unit, from B to A, W."""
+    @property
+    def part_a(self) -> int:
+        """Of A."""
+    @property
+    def part_b(self) -> int:
+        """Of B."""
+
+class ShapeContact(_Record):
+    """One point in which two shapes touch, as a step of the world finds it."""
+
+    def __init__(self, point: ArrayLike, normal: ArrayLike, distance: float, part_a: int, part_b: int) -> None: ...
+    @property
+    def point(self) -> Floats:
+        """Halfway between the surfaces [m, W]."""
+    @property
+    def normal(self) -> Floats:
+        """Unit, from B to A, W."""
+    @property
+    def distance(self) -> float:
+        """Along the normal [m]; negative = overlap."""
+    @property
+    def part_a(self) -> int:
+        """Of A."""
+    @property
+    def part_b(self) -> int:
+        """Of B."""
+
+class Overlap(_Record):
+    """A part of a body that overlaps a shape."""
+
+    def __init__(self, body: BodyId = ..., part: int = ...) -> None: ...
+    @property
+    def body(self) -> BodyId:
+        """Which one."""
+    @property
+    def part(self) -> int:
+        """Of the body."""
+
+class NearBody(_Record):
+    """A body near a shape."""
+
+    def __init__(self, body: BodyId = ..., closest: ClosestPoints = ...) -> None: ...
+    @property
+    def body(self) -> BodyId:
+        """Which one."""
+    @property
+    def closest(self) -> ClosestPoints:
+        """A is the shape, B the body."""
+
+class GroupId:
+    """The index of a group of bodies of a world."""
+
+    def __init__(self, index: int) -> None: ...
+    @property
+    def index(self) -> int: ...
+    def __eq__(self, other: object) -> bool: ...
+    def __hash__(self) -> int: ...
+
+class Sensed(_Record):
+    """A body that a sensor holds."""
+
+    def __init__(self, sensor: BodyId = ..., body: BodyId = ...) -> None: ...
+    @property
+    def sensor(self) -> BodyId:
+        """A body that is a sensor."""
+    @property
+    def body(self) -> BodyId:
+        """One that overlaps it and is no sensor."""
+
+class ConstantMotion(_Record):
+    """Moves and turns at constant rates, like a roller or a piston."""
+
+    def __init__(self, velocity: ArrayLike = ..., spin: ArrayLike = ...) -> None: ...
+    @property
+    def velocity(self) -> Floats:
+        """[m/s, W]"""
+    @property
+    def spin(self) -> Floats:
+        """[rad/s, W]"""
+
+class SineMotion(_Record):
+    """Swings: x(t) = amplitude·(sin(2π·frequency·t + phase) - sin(phase)), so that it begins where the body is; with
+    the phase π/2 it begins at rest."""
+
+    def __init__(
+        self,
+        amplitude: ArrayLike = ...,
+        turn: ArrayLike = ...,
+        frequency: float = ...,
+        phase: float = ...,
+    ) -> None: ...
+    @property
+    def amplitude(self) -> Floats:
+        """Of the displacement [m, W]."""
+    @property
+    def turn(self) -> Floats:
+        """Of the rotation vector [rad, W]."""
+    @property
+    def frequency(self) -> float:
+        """[Hz], > 0"""
+    @property
+    def phase(self) -> float:
+        """[rad]"""
+
+class TableMotion(_Record):
+    """Goes through given places at given times, on cubic curves with continuous velocity. Displacements and turns count
+    from the first entry."""
+
+    def __init__(
+        self,
+        times: ArrayLike,
+        displacements: ArrayLike = ...,
+        turns: ArrayLike = ...,
+        velocities: ArrayLike = ...,
+        end: Union[TableEnd, str] = ...,
+    ) -> None: ...
+    @property
+    def times(self) -> Floats:
+        """From the beginning of the motion, ascending, at least two [s], shape (n,)."""
+    @property
+    def displacements(self) -> Floats:
+        """[m, W], shape (n, 3), or none."""
+    @property
+    def turns(self) -> Floats:
+        """Rotation vectors [rad, W], shape (n, 3), or none."""
+    @property
+    def velocities(self) -> Floats:
+        """[m/s, W], shape (n, 3); or none: then those of a smooth curve, at rest at both ends unless the table
+        repeats."""
+    @property
+    def end(self) -> TableEnd:
+        """What comes after the last time."""
 
 class DetectionSettings(_Record):
     """Broad and narrow phase."""
@@ -1148,6 +1456,15 @@ class SceneBody(_Record):
         angular_velocity: ArrayLike = ...,
         fixed: bool = ...,
         asleep: bool = ...,
+        groups: Sequence[str] = ...,
+        sensor: bool = ...,
+        gravity_factor: float = ...,
+        linear_damping: float = ...,
+        angular_damping: float = ...,
+        user_data: int = ...,
+        motion: Optional[Motion] = ...,
+        pivot: ArrayLike = ...,
+        surface_velocity: ArrayLike = ...,
     ) -> None: ...
     @property
     def shape(self) -> Shape:
@@ -1185,6 +1502,68 @@ class SceneBody(_Record):
     @property
     def asleep(self) -> bool:
         """Begins asleep."""
+    @property
+    def groups(self) -> tuple[str, ...]:
+        """Names of SceneFilters.groups."""
+    @property
+    def sensor(self) -> bool:
+        """Touches nobody; World.sensed() and events say who is inside."""
+    @property
+    def gravity_factor(self) -> float:
+        """Of the global accelerations that it feels, -1e3 to 1e3; 0 = weightless."""
+    @property
+    def linear_damping(self) -> float:
+        """Rate at which the linear velocity decays [1/s], 0 to 1e6."""
+    @property
+    def angular_damping(self) -> float:
+        """Rate at which the angular velocity decays [1/s], 0 to 1e6."""
+    @property
+    def user_data(self) -> int:
+        """A number of the user's own, 0 to 2⁶⁴ - 1."""
+    @property
+    def motion(self) -> Optional[Motion]:
+        """Of a fixed body: the law by which it moves."""
+    @property
+    def pivot(self) -> Floats:
+        """Of the motion [m, frame of the shape]."""
+    @property
+    def surface_velocity(self) -> Floats:
+        """Of a fixed body: with which its surface runs over it [m/s, frame of the shape]."""
+
+class SceneException(_Record):
+    """An exception of two bodies of a scene from what their groups say."""
+
+    def __init__(self, a: int, b: int, touch: Union[Touch, str] = ...) -> None: ...
+    @property
+    def a(self) -> int:
+        """Index in Scene.bodies."""
+    @property
+    def b(self) -> int:
+        """Index in Scene.bodies."""
+    @property
+    def touch(self) -> Touch:
+        """Whether they do."""
+
+class SceneFilters(_Record):
+    """Which bodies of a scene touch each other."""
+
+    def __init__(
+        self,
+        groups: Sequence[str] = ...,
+        apart: Sequence[tuple[str, str]] = ...,
+        exceptions: Sequence[SceneException] = ...,
+    ) -> None: ...
+    @property
+    def groups(self) -> tuple[str, ...]:
+        """Unique names, at most most_groups."""
+    @property
+    def apart(self) -> tuple[tuple[str, str], ...]:
+        """Pairs of groups that never touch."""
+    @property
+    def exceptions(self) -> tuple[SceneException, ...]:
+        """Of pairs of bodies."""
+    def is_empty(self) -> bool:
+        """Whether all bodies touch."""
 
 class SceneJoint(_Record):
     """A joint of a scene."""
@@ -1318,6 +1697,8 @@ class Scene(_Record):
         materials: Sequence[Material] = ...,
         default_pair: PairProperties = ...,
         pairs: Union[Mapping[tuple[str, str], PairProperties], Sequence[tuple[tuple[str, str], PairProperties]]] = ...,
+        filters: SceneFilters = ...,
+        frame_motion: Optional[Motion] = ...,
         bodies: Sequence[SceneBody] = ...,
         springs: Sequence[SceneSpring] = ...,
         joints: Sequence[SceneJoint] = ...,
@@ -1345,6 +1726,12 @@ class Scene(_Record):
     @property
     def pairs(self) -> tuple[tuple[tuple[str, str], PairProperties], ...]:
         """Names of two materials, and what holds where they touch."""
+    @property
+    def filters(self) -> SceneFilters:
+        """Which bodies touch each other."""
+    @property
+    def frame_motion(self) -> Optional[Motion]:
+        """The law by which the frame of the world moves; None = it rests."""
     @property
     def bodies(self) -> tuple[SceneBody, ...]:
         """In the order of their numbers."""
@@ -1452,7 +1839,10 @@ class World:
         self, shape: Shape = ..., material: MaterialId = ..., mass: Optional[float] = ...,
         centre_of_mass: Optional[ArrayLike] = ..., inertia: Optional[ArrayLike] = ..., pose: Pose = ...,
         linear_velocity: ArrayLike = ..., angular_velocity: ArrayLike = ..., fixed: bool = ..., asleep: bool = ...,
-        name: str = ..., *, position: ArrayLike = ..., orientation: ArrayLike = ...
+        name: str = ..., groups: Sequence[GroupId] = ..., sensor: bool = ..., gravity_factor: float = ...,
+        linear_damping: float = ..., angular_damping: float = ..., user_data: int = ...,
+        motion: Optional[Motion] = ..., pivot: ArrayLike = ..., surface_velocity: ArrayLike = ...,
+        *, position: ArrayLike = ..., orientation: ArrayLike = ...
     ) -> BodyId: ...
     def remove_body(self, id: BodyId) -> None:
         """Wakes the sleeping bodies that touched it; its springs and joints go with it. Raises StaleIdError."""
@@ -1657,6 +2047,93 @@ class World:
         """[N, W], shape (n, 3)."""
     def set_constant_torques(self, ids: Ids, torques: ArrayLike) -> None:
         """[N·m, W], shape (n, 3)."""
+    def cast_ray(self, ray: Ray, *, excluding: Ids = ..., groups: Sequence[GroupId] = ...) -> Optional[RayHit]:
+        """The nearest body that a ray hits; of several at one distance that with the lowest id. Of this and the
+        following questions: excluding some bodies, and about those of some groups only; never about sensors. Raises
+        InputError."""
+    def cast_ray_through(self, ray: Ray, *, excluding: Ids = ..., groups: Sequence[GroupId] = ...) -> list[RayHit]:
+        """All parts of bodies that a ray hits, by distance, body and part. Raises InputError."""
+    def cast_rays(
+        self, rays: Sequence[Ray], *, excluding: Ids = ..., groups: Sequence[GroupId] = ...
+    ) -> list[Optional[RayHit]]:
+        """As cast_ray() for each ray, on the threads of the world and without the interpreter's lock. Raises
+        InputError."""
+    def cast_shape(
+        self, shape: Shape, pose: Pose, way: ArrayLike, *, excluding: Ids = ..., groups: Sequence[GroupId] = ...
+    ) -> Optional[BodyHit]:
+        """The first body that a shape meets which moves without turning from a pose along a way [m, W]. Raises
+        InputError."""
+    @overload
+    def overlap(
+        self, shape: Shape, pose: Pose, *, excluding: Ids = ..., groups: Sequence[GroupId] = ...
+    ) -> list[Overlap]:
+        """The parts of bodies that have a point in common with a shape, or with a box along the axes of W of given
+        corners [m, W], by body and part. Raises InputError."""
+    @overload
+    def overlap(
+        self, lower: ArrayLike, upper: ArrayLike, *, excluding: Ids = ..., groups: Sequence[GroupId] = ...
+    ) -> list[Overlap]: ...
+    @overload
+    def closest_points(
+        self, shape: Shape, pose: Pose, reach: float, *, excluding: Ids = ..., groups: Sequence[GroupId] = ...
+    ) -> list[NearBody]:
+        """The bodies within reach [m] of a shape, by distance and body; or the closest points of two bodies. Raises
+        InputError, StaleIdError."""
+    @overload
+    def closest_points(self, a: BodyId, b: BodyId) -> ClosestPoints: ...
+    def add_group(self, name: str) -> GroupId:
+        """Raises InputError for an empty or used name, or beyond most_groups."""
+    @property
+    def group_names(self) -> tuple[str, ...]:
+        """Of all groups, in the order of their ids."""
+    def set_groups_touch(self, a: GroupId, b: GroupId, touch: Union[Touch, str]) -> None:
+        """Whether bodies of two groups, or of one, touch; at first all do. Raises InputError."""
+    def groups_touch(self, a: GroupId, b: GroupId) -> Touch:
+        """Raises InputError."""
+    def set_groups(self, id: BodyId, groups: Sequence[GroupId]) -> None:
+        """Puts a body into these groups and no others. Raises InputError, StaleIdError."""
+    def groups(self, id: BodyId) -> list[GroupId]:
+        """Of a body, ascending. Raises StaleIdError."""
+    def set_pair_touch(self, a: BodyId, b: BodyId, touch: Optional[Union[Touch, str]]) -> None:
+        """An exception of two bodies from what their groups say; None = no exception. Raises InputError,
+        StaleIdError."""
+    def pair_touch(self, a: BodyId, b: BodyId) -> Optional[Touch]:
+        """The exception of two bodies, if there is one. Raises StaleIdError."""
+    def is_sensor(self, id: BodyId) -> bool:
+        """Whether it touches nobody. Raises StaleIdError."""
+    def sensed(self) -> list[Sensed]:
+        """Who was inside which sensor in the last step, by sensor and body."""
+    def set_gravity_factor(self, id: BodyId, factor: float) -> None:
+        """Of the global accelerations that it feels, -1e3 to 1e3."""
+    def gravity_factor(self, id: BodyId) -> float:
+        """Of the global accelerations that it feels."""
+    def set_damping(self, id: BodyId, linear: float, angular: float) -> None:
+        """Rates at which its velocities decay [1/s], 0 to 1e6."""
+    def linear_damping(self, id: BodyId) -> float:
+        """[1/s]"""
+    def angular_damping(self, id: BodyId) -> float:
+        """[1/s]"""
+    def set_user_data(self, id: BodyId, data: int) -> None:
+        """A number of the user's own, 0 to 2⁶⁴ - 1."""
+    def user_data(self, id: BodyId) -> int:
+        """0 unless it was set."""
+    def set_motion(self, id: BodyId, motion: Motion, pivot: ArrayLike = ...) -> None:
+        """Moves a fixed body by a law from now on; pivot: about which it turns [m, frame of the shape]. Raises
+        InputError, StaleIdError."""
+    def stop_motion(self, id: BodyId) -> None:
+        """It stays where it is. Raises StaleIdError."""
+    def motion(self, id: BodyId) -> Optional[Motion]:
+        """The law that moves it, if one does. Raises StaleIdError."""
+    def set_surface_velocity(self, id: BodyId, velocity: ArrayLike) -> None:
+        """Lets the surface of a fixed body run over it, like a belt [m/s, frame of the shape]. Raises InputError,
+        StaleIdError."""
+    def surface_velocity(self, id: BodyId) -> Floats:
+        """[m/s, frame of the shape]"""
+    @property
+    def frame_motion(self) -> Optional[Motion]:
+        """The law by which the frame of the world moves; None = it rests. Raises InputError."""
+    @frame_motion.setter
+    def frame_motion(self, motion: Optional[Motion]) -> None: ...
 
 class SceneRun:
     """A scene in a world, with its events."""
@@ -1846,3 +2323,17 @@ def export_csv(recording: RecordingReader, file: FilePath) -> None:
     """One row per frame and body."""
 def export_vtk(recording: RecordingReader, file: FilePath) -> None:
     """A ParaView time series."""
+def cast_ray(shape: Shape, pose: Pose, ray: Ray) -> Optional[SurfaceHit]:
+    """Where a ray meets a shape; pose: of the shape in W. Raises InputError."""
+def cast_shape(moving: Shape, pose: Pose, way: ArrayLike, other: Shape, other_pose: Pose) -> Optional[ShapeHit]:
+    """Where a shape that moves from its pose along a way [m, W], at whose end it stops, touches another. Raises
+    InputError."""
+def overlap(a: Shape, pose_a: Pose, b: Shape, pose_b: Pose) -> bool:
+    """Whether two shapes have a point in common. Raises InputError."""
+def closest_points(a: Shape, pose_a: Pose, b: Shape, pose_b: Pose) -> ClosestPoints:
+    """Closest points and signed distance of two shapes. Raises InputError."""
+def contacts_of(a: Shape, pose_a: Pose, b: Shape, pose_b: Pose, margin: float) -> list[ShapeContact]:
+    """The contacts of two shapes up to a distance [m], by part of A and then of B. Raises InputError."""
+def integrate_accelerogram(interval: float, accelerations: ArrayLike, baseline: Union[Baseline, str]) -> TableMotion:
+    """The motion, from rest, whose acceleration is straight between samples [m/s², W], shape (n, 3), an interval [s]
+    apart. Raises InputError."""

@@ -24,5 +24,7 @@ Shape = Union[
 EventAction = Union[
     _core.SetGravity, _core.SetVelocity, _core.GiveImpulse, _core.SetForce, _core.SetTorque, _core.RemoveBody
 ]
+#: Any law of motion.
+Motion = Union[_core.ConstantMotion, _core.SineMotion, _core.TableMotion]
 #: The value of any field of the settings.
 SettingValue = Union[bool, int, float, str]

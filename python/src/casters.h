@@ -67,6 +67,12 @@ inline constexpr const char* enum_name<Stage> = "Stage";
 template <>
 inline constexpr const char* enum_name<DiagnosticsField::Fold> = "Fold";
 template <>
+inline constexpr const char* enum_name<Touch> = "Touch";
+template <>
+inline constexpr const char* enum_name<TableEnd> = "TableEnd";
+template <>
+inline constexpr const char* enum_name<Baseline> = "Baseline";
+template <>
 inline constexpr const char* enum_name<Tracing> = "Tracing";
 template <>
 inline constexpr const char* enum_name<Checks> = "Checks";

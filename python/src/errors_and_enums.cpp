@@ -88,6 +88,9 @@ void bindEnums(py::module_& module) {
     bindEnum<EventLevel>(module, {"none", "changes", "all"},
                          "Which events a world collects; each level has those before it.");
     bindEnum<JointKind>(module, {"distance", "rope", "ball", "hinge", "slider", "fixed"}, "What a joint keeps.");
+    bindEnum<Touch>(module, {"never", "always"}, "Whether two bodies may touch.");
+    bindEnum<TableEnd>(module, {"hold", "repeat"}, "What a table of motion does after its last time.");
+    bindEnum<Baseline>(module, {"none", "at_rest"}, "How an accelerogram is brought to an end.");
     bindEnum<Stage>(
         module,
         {"events", "positions", "detection", "batches", "correction", "velocities", "resolution", "sleeping", "output"},

@@ -11,6 +11,8 @@ PYBIND11_MODULE(_core, module) {
     bindBodyRecords(module);
     bindSettings(module);
     bindReports(module);
+    bindQueryRecords(module);
+    bindFilterAndMotionRecords(module);
     bindSceneRecords(module);
     bindBodies(module);
     bindWorld(module);

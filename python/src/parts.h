@@ -10,6 +10,8 @@ void bindEnums(pybind11::module_& module);
 void bindBodyRecords(pybind11::module_& module);
 void bindSettings(pybind11::module_& module);
 void bindReports(pybind11::module_& module);
+void bindQueryRecords(pybind11::module_& module);
+void bindFilterAndMotionRecords(pybind11::module_& module);
 void bindSceneRecords(pybind11::module_& module);
 void bindWorld(pybind11::module_& module);
 void bindBodies(pybind11::module_& module);

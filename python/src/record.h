@@ -40,8 +40,8 @@ struct IsVector<std::vector<Element>> : std::true_type {};
 template <class Element, std::size_t size>
 struct IsVector<std::array<Element, size>> : std::true_type {};
 
-/// Binds a struct, field by field; finish() ends it.
-template <class Type>
+/// Binds a struct, field by field; finish() ends it. Bases are records, too.
+template <class Type, class... Bases>
 class Record {
   public:
     Record(py::module_& module, const char* name, const char* doc)
@@ -67,14 +67,17 @@ class Record {
     Record& fieldBy(const char* name, Get get, Set set, const char* doc) {
         addProperty(
             class_, name, [get](py::handle self) { return get(self.cast<const Type&>()); }, doc);
-        fields_->names.emplace_back(name);
-        fields_->setters.emplace_back(
-            [set](void* record, py::handle value) { set(*static_cast<Type*>(record), value); });
-        return *this;
+        return settable(name, set);
+    }
+
+    /// A member that a base reads.
+    template <class Member, class Base>
+    Record& inherited(const char* name, Member Base::*member) {
+        return settable(name, [member](Type& record, py::handle value) { record.*member = value.cast<Member>(); });
     }
 
     /// @param required how many of the first fields have no default
-    py::class_<Type>& finish(std::size_t required = 0) {
+    py::class_<Type, Bases...>& finish(std::size_t required = 0) {
         fields_->required = required;
         class_.def(py::init([fields = fields_](const py::args& args, const py::kwargs& kwargs) {
             Type record{};
@@ -86,7 +89,15 @@ class Record {
     }
 
   private:
-    py::class_<Type> class_;
+    template <class Set>
+    Record& settable(const char* name, Set set) {
+        fields_->names.emplace_back(name);
+        fields_->setters.emplace_back(
+            [set](void* record, py::handle value) { set(*static_cast<Type*>(record), value); });
+        return *this;
+    }
+
+    py::class_<Type, Bases...> class_;
     std::shared_ptr<RecordFields> fields_;
 };
 

@@ -125,6 +125,19 @@ void bindDescriptions(py::module_& module) {
         .field("fixed", &BodyDescription::fixed, "Never moves, infinite mass; half-spaces must be fixed.")
         .field("asleep", &BodyDescription::asleep, "Begins asleep; its velocities must be zero.")
         .field("name", &BodyDescription::name, "Free, for messages and viewers.")
+        .field("groups", &BodyDescription::groups, "Any number; none = touches the bodies of all groups.")
+        .field("sensor", &BodyDescription::sensor, "Touches nobody; World.sensed() and events say who is inside.")
+        .field("gravity_factor", &BodyDescription::gravity_factor,
+               "Of the global accelerations that it feels, -1e3 to 1e3; 0 = weightless.")
+        .field("linear_damping", &BodyDescription::linear_damping,
+               "Rate at which the linear velocity decays [1/s], 0 to 1e6.")
+        .field("angular_damping", &BodyDescription::angular_damping,
+               "Rate at which the angular velocity decays [1/s], 0 to 1e6.")
+        .field("user_data", &BodyDescription::user_data, "A number of the user's own, 0 to 2⁶⁴ - 1.")
+        .field("motion", &BodyDescription::motion, "Of a fixed body: the law by which it moves.")
+        .field("pivot", &BodyDescription::pivot, "Of the motion [m, frame of the shape].")
+        .field("surface_velocity", &BodyDescription::surface_velocity,
+               "Of a fixed body: with which its surface runs over it [m/s, frame of the shape].")
         .finish();
     Record<SpringDescription>(module, "SpringDescription", "A damped spring between two points.")
         .field("a", &SpringDescription::a, "First body.")

@@ -42,7 +42,30 @@ void bindSceneBodies(py::module_& module) {
         .field("angular_velocity", &B::angular_velocity, "[rad/s, W]")
         .field("fixed", &B::fixed, "Never moves.")
         .field("asleep", &B::asleep, "Begins asleep.")
+        .field("groups", &B::groups, "Names of SceneFilters.groups.")
+        .field("sensor", &B::sensor, "Touches nobody; World.sensed() and events say who is inside.")
+        .field("gravity_factor", &B::gravity_factor,
+               "Of the global accelerations that it feels, -1e3 to 1e3; 0 = weightless.")
+        .field("linear_damping", &B::linear_damping, "Rate at which the linear velocity decays [1/s], 0 to 1e6.")
+        .field("angular_damping", &B::angular_damping, "Rate at which the angular velocity decays [1/s], 0 to 1e6.")
+        .field("user_data", &B::user_data, "A number of the user's own, 0 to 2⁶⁴ - 1.")
+        .field("motion", &B::motion, "Of a fixed body: the law by which it moves.")
+        .field("pivot", &B::pivot, "Of the motion [m, frame of the shape].")
+        .field("surface_velocity", &B::surface_velocity,
+               "Of a fixed body: with which its surface runs over it [m/s, frame of the shape].")
         .finish(2);
+    Record<SceneException>(module, "SceneException",
+                           "An exception of two bodies of a scene from what their groups say.")
+        .field("a", &SceneException::a, "Index in Scene.bodies.")
+        .field("b", &SceneException::b, "Index in Scene.bodies.")
+        .field("touch", &SceneException::touch, "Whether they do.")
+        .finish(2);
+    Record<SceneFilters>(module, "SceneFilters", "Which bodies of a scene touch each other.")
+        .field("groups", &SceneFilters::groups, "Unique names, at most most_groups.")
+        .field("apart", &SceneFilters::apart, "Pairs of groups that never touch.")
+        .field("exceptions", &SceneFilters::exceptions, "Of pairs of bodies.")
+        .finish()
+        .def("is_empty", &SceneFilters::isEmpty, "Whether all bodies touch.");
     Record<SceneJoint>(module, "SceneJoint", "A joint of a scene.")
         .field("a", &SceneJoint::a, "Index in Scene.bodies.")
         .field("b", &SceneJoint::b, "Index in Scene.bodies; None = the world.")
@@ -98,7 +121,9 @@ void bindScene(py::module_& module) {
         .field("materials", &Scene::materials, "What bodies are made of.")
         .field("default_pair", &Scene::default_pair, "Of materials that have no pair of their own.");
     pairsField(scene, "pairs", &Scene::pairs, "Names of two materials, and what holds where they touch.");
-    scene.field("bodies", &Scene::bodies, "In the order of their numbers.")
+    scene.field("filters", &Scene::filters, "Which bodies touch each other.")
+        .field("frame_motion", &Scene::frame_motion, "The law by which the frame of the world moves; None = it rests.")
+        .field("bodies", &Scene::bodies, "In the order of their numbers.")
         .field("springs", &Scene::springs, "Between bodies, or a body and the world.")
         .field("joints", &Scene::joints, "Between bodies, or a body and the world.")
         .field("preset", &Scene::preset, "Where the settings begin; None = performance.");

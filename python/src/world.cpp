@@ -190,6 +190,8 @@ void bindWorld(py::module_& module) {
     bindSnapshots(world);
     bindAfterStep(world);
     bindBodyCalls(world);
+    bindQueries(world);
+    bindFiltersAndMotions(world);
 }
 
 }  // namespace cairn::python

@@ -33,4 +33,10 @@ auto on(Result (World::*method)(Arguments...) const noexcept) {
 /// Adds what reads and writes the state of bodies.
 void bindBodyCalls(WorldClass& world);
 
+/// Adds questions about the bodies where they are.
+void bindQueries(WorldClass& world);
+
+/// Adds what says which bodies touch and how they move, and their properties that do not change by themselves.
+void bindFiltersAndMotions(WorldClass& world);
+
 }  // namespace cairn::python
