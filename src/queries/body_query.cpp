@@ -142,8 +142,7 @@ void findOverlaps(const AskedShape& asked, const Target& target, std::vector<std
         });
     }
     std::ranges::sort(parts);
-    const auto twice = std::ranges::unique(parts);
-    parts.erase(twice.begin(), twice.end());
+    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
 }
 
 std::optional<ClosestPoints> closestAt(const AskedShape& asked, const Target& target, double limit) {

@@ -85,14 +85,14 @@ std::optional<ClosestPoints> closestOfParts(const Placed& a, const Placed& b, do
 }
 
 std::optional<ShapeHit> castPart(const Placed& moving, const Vec3& direction, double reach, const Placed& other) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr double everywhere = std::numeric_limits<double>::infinity();
     const double size = std::min(largestRadius(moving.shape), largestRadius(other.shape));
     const bool is_round = keepsDirection(moving.shape) || keepsDirection(other.shape);
     double gone = 0;
     Vec3 normal = Vec3::Zero();
     for (int i = 0; i < most_steps; ++i) {
         const Placed at{moving.shape, {moving.pose.position + gone * direction, moving.pose.orientation}};
-        const ClosestPoints closest = closestOfParts(at, other, infinity).value();
+        const ClosestPoints closest = closestOfParts(at, other, everywhere).value();
         // Where cores touch, the direction before is the better one.
         if (i == 0 || is_round || closest.distance > touching_part * size) normal = closest.normal;
         if (closest.distance <= 0) return ShapeHit{gone, closest.on_b, normal, 0, 0};
