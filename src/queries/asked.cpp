@@ -17,7 +17,10 @@ void requirePoint(const Vec3& point, std::string_view what) {
 }
 
 Vec3 requireDirection(const Vec3& direction, std::string_view what) {
-    if (direction.allFinite() && !direction.isZero(0)) return direction.stableNormalized();
+    // Scaled first, so that the shortest vectors keep their direction and get unit length, too.
+    if (direction.allFinite() && !direction.isZero(0)) {
+        return (direction / direction.cwiseAbs().maxCoeff()).normalized();
+    }
     throw InputError(fmt::format("{} is ({}, {}, {}); it must be finite and not zero", what, direction.x(),
                                  direction.y(), direction.z()));
 }
