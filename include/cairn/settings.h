@@ -19,7 +19,7 @@ enum class Preset {
     accuracy,         ///< the other end of the dial between speed and truth
     thesis,           ///< the thesis's algorithms with its high performance settings. @source thesis §5.1
     thesis_accuracy,  ///< and with its high accuracy settings. @source thesis §5.5
-    robust  ///< for piles of any depth and bodies of any size: slower than performance, at 240 steps per second
+    robust            ///< for deep piles; slower than performance. What it does not hold yet: docs/notebook.md
 };
 
 /// The name of each preset, in the order of the enumeration, as in scene files and `--preset`.
@@ -57,7 +57,8 @@ struct DetectionSettings {
     /// for a sixteenth of the overlap that is allowed.
     double contact_margin = 1e-4;
     /// And so are those of bodies that would meet before the next detection: accelerated_sweeps lets them come just so
-    /// close, and nothing flies into or through anything. Not with RestitutionSpeed::touching.
+    /// close, rather than fly into or through each other. What a call moved or added is looked ahead for from its
+    /// second step on. Not with RestitutionSpeed::touching.
     bool speculative_contacts = false;
 };
 
