@@ -10,10 +10,11 @@
 
 namespace cairn {
 
-/// Visits the contacts of a batch forth and back in ascending order. Where one is deeper than the threshold with all
-/// that moved so far, its bodies move apart along the normal, each in proportion to its inverse mass, until the part of
-/// the threshold is left that remains. So the centre of mass of a pair stays, a chain of contacts shares what one of
-/// them had too much, and the cost follows the number of contacts. Nothing turns.
+/// Visits the contacts of a batch forth and back in ascending order. Where one is deeper than what it is allowed with
+/// all that moved so far, its bodies move and turn apart as an impulse along the normal would let them, until the part
+/// of that is left that remains; of what is far too deep, half is left for the next steps. So the centre of mass of a
+/// pair stays, a chain of contacts shares what one of them had too much, a body that stands on an edge is turned rather
+/// than lifted, and the cost follows the number of contacts.
 ///
 /// What this lifts is paid for: the bodies that gained potential energy are owed by the motion along the normals of
 /// their contacts. Each contact in turn gives what it has and they still owe, by an equal and opposite impulse that
