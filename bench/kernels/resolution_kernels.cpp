@@ -142,8 +142,11 @@ Pass batchPass(std::string_view resolution) {
         pile->contacts = begin.contacts;
     };
     pass.run = [pile, solver] {
-        ResolutionCounts counts =
-            solver->resolve(pile->batch(), pile->contacts, pile->state(), pile->settings.resolution, Executor{});
+        const BatchView batch = pile->batch();
+        const BodyState bodies = pile->state();
+        const Executor alone;
+        const ResolutionCounts counts =
+            solver->resolve({{&batch, 1}, pile->contacts, bodies, pile->settings.resolution, alone});
         keep(counts);
     };
     return pass;

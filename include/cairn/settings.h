@@ -136,8 +136,7 @@ struct IntegrationSettings {
 
 /// Threads. @source thesis §4
 struct ParallelSettings {
-    std::int64_t threads = 1;       ///< threads that a step uses, 1 to 1024; results do not depend on it
-    std::int64_t large_batch = 32;  ///< batches with at least so many contacts are handed out one by one (§4)
+    std::int64_t threads = 1;  ///< threads that a step uses, 1 to 1024; results do not depend on it
 };
 
 /// What a step measures besides.

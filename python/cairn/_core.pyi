@@ -1100,13 +1100,10 @@ class IntegrationSettings(_Record):
 class ParallelSettings(_Record):
     """Threads; results do not depend on them."""
 
-    def __init__(self, threads: int = ..., large_batch: int = ...) -> None: ...
+    def __init__(self, threads: int = ...) -> None: ...
     @property
     def threads(self) -> int:
         """threads of a step; results do not depend on it"""
-    @property
-    def large_batch(self) -> int:
-        """batches with at least so many contacts are handed out one by one [contacts]"""
 
 class LimitSettings(_Record):
     """What a world refuses to grow beyond."""

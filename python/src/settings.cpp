@@ -66,7 +66,6 @@ void bindStages(py::module_& module) {
     using P = ParallelSettings;
     SettingRecord<P>(module, "ParallelSettings", "Threads; results do not depend on them.")
         .field("threads", &P::threads)
-        .field("large_batch", &P::large_batch)
         .finish();
     SettingRecord<DiagnosticsSettings>(module, "DiagnosticsSettings", "What a step measures besides.")
         .field("diagnostics", &DiagnosticsSettings::diagnostics)

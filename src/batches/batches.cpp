@@ -142,21 +142,4 @@ void listContacts(std::span<const BodyKind> kind, std::span<const Contact> conta
     begin.front() = 0;
 }
 
-std::size_t scheduleBatches(const Batches& batches, std::size_t large, std::vector<std::uint32_t>& order) {
-    const auto contactsOf = [&](std::uint32_t i) { return batches.contact_begin[i + 1] - batches.contact_begin[i]; };
-    const auto count = static_cast<std::uint32_t>(batches.size());
-    order.clear();
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (contactsOf(i) >= large) order.push_back(i);
-    }
-    const std::size_t large_count = order.size();
-    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-        return contactsOf(i) != contactsOf(j) ? contactsOf(i) > contactsOf(j) : i < j;
-    });
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (contactsOf(i) < large) order.push_back(i);
-    }
-    return large_count;
-}
-
 }  // namespace cairn

@@ -64,8 +64,4 @@ void buildBatches(std::span<const BodyKind> kind, std::span<const Contact> conta
 /// Lists the contacts of every dynamic body; fixed bodies get empty lists, since nothing travels through them.
 void listContacts(std::span<const BodyKind> kind, std::span<const Contact> contacts, ContactsOfBodies& of_bodies);
 
-/// The order in which batches are worked on: those with at least `large` contacts first, by descending size (ties by
-/// index), then the small ones in ascending order. @return number of large ones @source thesis §4, Figure 26
-std::size_t scheduleBatches(const Batches& batches, std::size_t large, std::vector<std::uint32_t>& order);
-
 }  // namespace cairn

@@ -34,6 +34,8 @@ struct BodyState {
     Vec3 fall = Vec3::Zero();
     /// How the surfaces of fixed bodies move over them [slots] [m/s, W]; empty = none does.
     std::span<const Vec3> surface{};
+    /// Who of those that can move is held still in this step [slots]; empty = nobody.
+    std::span<const std::uint8_t> held{};
     /// Subset of the shock propagation; empty unless the step is traced.
     std::span<std::int32_t> shock_stage{};
 
@@ -45,6 +47,8 @@ struct BodyState {
     }
     double gravityFactor(BodyIndex i) const { return gravity_factor.empty() ? 1.0 : gravity_factor[i]; }
     bool isFixed(BodyIndex i) const { return kind[i] != BodyKind::dynamic; }
+    /// Whether the resolution cannot move it.
+    bool isImmovable(BodyIndex i) const { return isFixed(i) || (!held.empty() && held[i] != 0); }
     /// Wakes a body if it sleeps, keeping the first reason of the step.
     void wake(BodyIndex i, WakeReason reason) const {
         if (asleep[i] == 0) return;

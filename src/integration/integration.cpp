@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "activity/sleeping.h"
 #include "math/rotation.h"
-#include "sleeping/sleeping.h"
 
 namespace cairn {
 

@@ -40,17 +40,52 @@ using LaneMask = std::int64_t __attribute__((vector_size(8 * lane_count)));
     return Lanes{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
 }
 
-/// Four vectors of three numbers.
-using Lanes3 = Triple<Lanes>;
+/// How many numbers a Number is.
+template <class Number>
+inline constexpr std::size_t lanes_in = sizeof(Number) / sizeof(double);
 
-/// One of the four.
-inline Vec3 laneOf(const Lanes3& u, std::size_t lane) {
-    return {u.x()[lane], u.y()[lane], u.z()[lane]};
+/// One of them.
+[[gnu::always_inline]] inline double laneOf(double x, std::size_t) {
+    return x;
 }
-inline void setLane(Lanes3& u, std::size_t lane, const Vec3& value) {
-    u.x()[lane] = value.x();
-    u.y()[lane] = value.y();
-    u.z()[lane] = value.z();
+[[gnu::always_inline]] inline double laneOf(const Lanes& x, std::size_t lane) {
+    return x[lane];
+}
+[[gnu::always_inline]] inline void setLane(double& x, std::size_t, double value) {
+    x = value;
+}
+[[gnu::always_inline]] inline void setLane(Lanes& x, std::size_t lane, double value) {
+    x[lane] = value;
+}
+
+/// value(lane) of each lane.
+template <class Number, class Value>
+[[gnu::always_inline]] inline Number collect(const Value& value) {
+    if constexpr (lanes_in<Number> == 1) {
+        return value(0);
+    } else {
+        return Number{value(0), value(1), value(2), value(3)};
+    }
+}
+
+/// Holds in the lanes where a number is not zero.
+[[gnu::always_inline]] inline bool isNonzero(double x) {
+    return x != 0;
+}
+[[gnu::always_inline]] inline LaneMask isNonzero(const Lanes& x) {
+    return x != Lanes{};
+}
+
+/// Vectors of three numbers.
+template <class Number>
+inline Vec3 laneOf(const Triple<Number>& u, std::size_t lane) {
+    return {laneOf(u.x(), lane), laneOf(u.y(), lane), laneOf(u.z(), lane)};
+}
+template <class Number>
+inline void setLane(Triple<Number>& u, std::size_t lane, const Vec3& value) {
+    setLane(u.x(), lane, value.x());
+    setLane(u.y(), lane, value.y());
+    setLane(u.z(), lane, value.z());
 }
 
 template <class Mask, class Number>
@@ -77,10 +112,11 @@ inline bool hasAvx2() {
 }
 #endif
 
-/// Runs work compiled for the vectors that this processor has. @param work a callable that is always inlined
-template <class Work>
+/// Runs work on Numbers, compiled for the vectors that this processor has. @param work a callable that is always
+/// inlined
+template <class Number, class Work>
 void runOnLanes(const Work& work) {
-    if (hasAvx2()) {
+    if (lanes_in < Number >> 1 && hasAvx2()) {
         runWithAvx2(work);
     } else {
         work();

@@ -167,9 +167,9 @@ void PairTable::detectPairs(const PairsInput& input, std::span<const Contact> la
     for (ContactPair& pair : near_pairs_.pairs().subspan(part.pair_begin, part.pair_end - part.pair_begin)) {
         // Most pairs are only near each other, and this is quickly told.
         if (!bounds_[pair.a].overlaps(bounds_[pair.b])) {
-            pair.count = 0;
-            pair.ahead = false;
-            pair.first = static_cast<std::uint32_t>(part.count);
+            // What is not written need not leave the processor's cache.
+            if (pair.count != 0) pair.count = 0;
+            if (pair.ahead) pair.ahead = false;
             continue;
         }
         if (!mayTouch(input.bodies, input.excluded, pair)) {

@@ -3,13 +3,14 @@
 
 #include <memory>
 
-#include "resolution/resolution.h"
+#include "resolution/batch_resolution.h"
 
 namespace cairn {
 
-std::unique_ptr<Resolution> makeImpulseQueueResolution();  ///< in impulse_queue.cpp
-std::unique_ptr<Resolution> makeSweepResolution();         ///< in sweep.cpp
+std::unique_ptr<BatchResolution> makeImpulseQueueResolution();  ///< in impulse_queue.cpp
+std::unique_ptr<BatchResolution> makeSweepResolution();         ///< in sweep.cpp
 
-std::unique_ptr<Resolution> makeAcceleratedSweepsResolution();  ///< in accelerated_sweeps.cpp
+std::unique_ptr<BatchResolution> makeSweepsOfOne();  ///< in sweeps_of_all.cpp
+std::unique_ptr<Resolution> makeSweepsOfAll();       ///< in sweeps_of_all.cpp
 
 }  // namespace cairn

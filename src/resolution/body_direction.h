@@ -16,8 +16,10 @@ class BodyDirection {
     void note(const LocalBatch& batch, const Executor& executor);
     /// Adds β times the last direction to the velocities; the new direction is the change since note() plus that.
     void accelerate(double beta, LocalBatch& batch, const Executor& executor);
-    /// Forgets the last direction.
-    void restart(const LocalBatch& batch);
+    /// The same of some bodies.
+    void accelerate(double beta, LocalBatch& batch, std::size_t begin, std::size_t end);
+    /// Forgets the last direction of some bodies. @pre note()
+    void restart(std::size_t begin, std::size_t end);
 
   private:
     std::vector<Twist> before_;     ///< [dynamic bodies]

@@ -11,14 +11,6 @@ constexpr std::size_t most_colours = 64;
 
 }  // namespace
 
-void ContactColours::keepOrder(std::size_t contacts) {
-    order_.resize(contacts);
-    for (std::size_t i = 0; i < contacts; ++i) order_[i] = static_cast<std::uint32_t>(i);
-    pair_begin_.assign({0, static_cast<std::uint32_t>(contacts)});
-    colour_begin_.assign({0, 1});
-    shared_ = 0;
-}
-
 void ContactColours::colour(std::span<const ContactEnds> ends, std::size_t moving) {
     used_.assign(moving, 0);
     colour_of_.clear();

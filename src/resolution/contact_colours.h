@@ -20,13 +20,13 @@ class ContactColours {
     /// Colours of a batch. @param ends [contacts] those of a pair next to each other @param moving bodies below this
     /// index move
     void colour(std::span<const ContactEnds> ends, std::size_t moving);
-    /// One colour that holds everything in the given order, to be swept by one thread.
-    void keepOrder(std::size_t contacts);
 
     /// [contacts] places in colour order: place k holds contact order()[k]
     std::span<const std::uint32_t> order() const { return order_; }
     std::size_t colours() const { return colour_begin_.size() - 1; }
-    /// Whether the pairs of a colour may be worked on at the same time.
+    /// The pairs of colours below this may be worked on at the same time.
+    std::size_t shared() const { return shared_; }
+    /// Likewise of one colour.
     bool isShared(std::size_t colour) const { return colour < shared_; }
     std::size_t pairs(std::size_t colour) const { return colour_begin_[colour + 1] - colour_begin_[colour]; }
     /// First place of a pair of a colour; with pair = pairs(colour) the end of the last.

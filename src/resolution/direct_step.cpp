@@ -50,7 +50,9 @@ bool isSticking(const SweptContact& contact) {
 
 }  // namespace
 
-bool DirectStep::compute(const LocalBatch& batch, std::span<const SweptContact> swept) {
+bool DirectStep::compute(std::span<const LocalBody> bodies, BodyRange moving, std::span<const SweptContact> swept) {
+    bodies_ = bodies;
+    moving_ = moving;
     const std::size_t count = swept.size();
     holds_.resize(count);
     stiffness_.resize(count);
@@ -63,23 +65,23 @@ bool DirectStep::compute(const LocalBatch& batch, std::span<const SweptContact> 
         holds_[i] = !pushes ? Hold::none : isSticking(contact) ? Hold::all : Hold::normal;
         stiffness_[i] = contact.normal_mass / softness;
         any = any || pushes;
-        const bool couples = !batch.isFixed(contact.a) && !batch.isFixed(contact.b);
-        if (couples && (couplings_.empty() || couplings_.back() != std::pair(contact.a, contact.b))) {
-            couplings_.emplace_back(contact.a, contact.b);
+        const bool couples = moves(contact.a) && moves(contact.b);
+        if (couples && (couplings_.empty() || couplings_.back() != std::pair(placeOf(contact.a), placeOf(contact.b)))) {
+            couplings_.emplace_back(placeOf(contact.a), placeOf(contact.b));
         }
     }
     if (!any) return false;
-    assemble(batch, swept);
+    assemble(swept);
     if (!matrix_.factorize()) return false;
-    solve(batch, swept);
+    solve(swept);
     return true;
 }
 
-void DirectStep::assemble(const LocalBatch& batch, std::span<const SweptContact> swept) {
-    matrix_.reset(batch.dynamic_bodies, couplings_);
-    inertia_.resize(batch.dynamic_bodies);
-    for (std::uint32_t i = 0; i < batch.dynamic_bodies; ++i) {
-        const LocalBody& body = batch.bodies[i];
+void DirectStep::assemble(std::span<const SweptContact> swept) {
+    matrix_.reset(moving_.end - moving_.begin, couplings_);
+    inertia_.resize(moving_.end - moving_.begin);
+    for (std::uint32_t i = 0; i < moving_.end - moving_.begin; ++i) {
+        const LocalBody& body = bodies_[moving_.begin + i];
         inertia_[i].setZero();
         inertia_[i].topLeftCorner<3, 3>().diagonal().setConstant(1 / body.mass_inv);
         inertia_[i].bottomRightCorner<3, 3>() = inverse(body.inertia_inv).toMatrix();
@@ -92,40 +94,40 @@ void DirectStep::assemble(const LocalBatch& batch, std::span<const SweptContact>
         const Vec3 r_a = toVec3(contact.r_a);
         const Vec3 r_b = toVec3(contact.r_b);
         const Mat3 weight = stiffness_[i] * (holds_[i] == Hold::all ? Mat3(Mat3::Identity()) : Mat3(n * n.transpose()));
-        const bool a_moves = !batch.isFixed(contact.a);
-        const bool b_moves = !batch.isFixed(contact.b);
-        if (a_moves) matrix_.addDiagonal(contact.a, coupling(r_a, weight, r_a));
-        if (b_moves) matrix_.addDiagonal(contact.b, coupling(r_b, weight, r_b));
-        if (a_moves && b_moves) matrix_.add(contact.a, contact.b, -coupling(r_a, weight, r_b));
+        const bool a_moves = moves(contact.a);
+        const bool b_moves = moves(contact.b);
+        if (a_moves) matrix_.addDiagonal(placeOf(contact.a), coupling(r_a, weight, r_a));
+        if (b_moves) matrix_.addDiagonal(placeOf(contact.b), coupling(r_b, weight, r_b));
+        if (a_moves && b_moves) matrix_.add(placeOf(contact.a), placeOf(contact.b), -coupling(r_a, weight, r_b));
     }
 }
 
-Vec3 DirectStep::missing(const LocalBatch& batch, const SweptContact& contact, std::size_t i) const {
-    Vec3 velocity = toVec3(relativeVelocity(contact, read(batch.bodies[contact.a]), read(batch.bodies[contact.b])));
-    if (!batch.isFixed(contact.a)) velocity += velocityAt(motion_[contact.a], toVec3(contact.r_a));
-    if (!batch.isFixed(contact.b)) velocity -= velocityAt(motion_[contact.b], toVec3(contact.r_b));
+Vec3 DirectStep::missing(const SweptContact& contact, std::size_t i) const {
+    Vec3 velocity = toVec3(relativeVelocity(contact, read(bodies_[contact.a]), read(bodies_[contact.b])));
+    if (moves(contact.a)) velocity += velocityAt(motion_[placeOf(contact.a)], toVec3(contact.r_a));
+    if (moves(contact.b)) velocity -= velocityAt(motion_[placeOf(contact.b)], toVec3(contact.r_b));
     const Vec3 n = toVec3(contact.normal);
     const Vec3 lacking = contact.target * n - velocity;
     return holds_[i] == Hold::all ? lacking : Vec3(n.dot(lacking) * n);
 }
 
-void DirectStep::solve(const LocalBatch& batch, std::span<const SweptContact> swept) {
-    motion_.assign(batch.dynamic_bodies, Vec6::Zero());
-    force_.resize(batch.dynamic_bodies);
+void DirectStep::solve(std::span<const SweptContact> swept) {
+    motion_.assign(moving_.end - moving_.begin, Vec6::Zero());
+    force_.resize(moving_.end - moving_.begin);
     for (int round = 0; round <= refinements; ++round) {
-        for (std::size_t i = 0; i < batch.dynamic_bodies; ++i) force_[i] = -(inertia_[i] * motion_[i]);
+        for (std::size_t i = 0; i < moving_.end - moving_.begin; ++i) force_[i] = -(inertia_[i] * motion_[i]);
         for (std::size_t i = 0; i < swept.size(); ++i) {
             if (holds_[i] == Hold::none) continue;
             const SweptContact& contact = swept[i];
-            const Vec3 impulse = stiffness_[i] * missing(batch, contact, i);
-            if (!batch.isFixed(contact.a)) addForceAt(impulse, toVec3(contact.r_a), force_[contact.a]);
-            if (!batch.isFixed(contact.b)) addForceAt(-impulse, toVec3(contact.r_b), force_[contact.b]);
+            const Vec3 impulse = stiffness_[i] * missing(contact, i);
+            if (moves(contact.a)) addForceAt(impulse, toVec3(contact.r_a), force_[placeOf(contact.a)]);
+            if (moves(contact.b)) addForceAt(-impulse, toVec3(contact.r_b), force_[placeOf(contact.b)]);
         }
         matrix_.solve(force_);
-        for (std::size_t i = 0; i < batch.dynamic_bodies; ++i) motion_[i] += force_[i];
+        for (std::size_t i = 0; i < moving_.end - moving_.begin; ++i) motion_[i] += force_[i];
     }
     for (std::size_t i = 0; i < swept.size(); ++i) {
-        changes_[i] = holds_[i] == Hold::none ? Vec3(Vec3::Zero()) : Vec3(stiffness_[i] * missing(batch, swept[i], i));
+        changes_[i] = holds_[i] == Hold::none ? Vec3(Vec3::Zero()) : Vec3(stiffness_[i] * missing(swept[i], i));
     }
 }
 

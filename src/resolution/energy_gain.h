@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "resolution/batch_motion.h"
+#include "batches/batch_motion.h"
 #include "resolution/symmetric3.h"
 
 namespace cairn {

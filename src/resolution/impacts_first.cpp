@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include "batches/batch_motion.h"
 #include "resolution/algorithms.h"
-#include "resolution/batch_motion.h"
 
 namespace cairn {
 
@@ -21,9 +21,10 @@ Impacts wantedOf(const ResolutionSettings& settings, Impacts own) {
     return settings.restitution_law == RestitutionLaw::energetic ? Impacts::sequential : own;
 }
 
-class ImpactsFirst final : public Resolution {
+class ImpactsFirst final : public BatchResolution {
   public:
-    ImpactsFirst(std::unique_ptr<Resolution> resolution, Impacts own) : resolution_(std::move(resolution)), own_(own) {}
+    ImpactsFirst(std::unique_ptr<BatchResolution> resolution, Impacts own)
+        : resolution_(std::move(resolution)), own_(own) {}
 
     ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
                              const ResolutionSettings& settings, const Executor& executor) override {
@@ -39,10 +40,6 @@ class ImpactsFirst final : public Resolution {
         counts.global_iterations += first.global_iterations;
         addJoints(batch);
         return counts;
-    }
-
-    bool wantsAllThreads(const BatchView& batch, std::span<const Contact> contacts) const override {
-        return resolution_->wantsAllThreads(batch, contacts);
     }
 
   private:
@@ -65,7 +62,7 @@ class ImpactsFirst final : public Resolution {
             impacts.shock_propagation = false;
             return sequential_->resolve(batch, contacts, bodies, impacts, executor);
         }
-        if (!simultaneous_) simultaneous_ = makeAcceleratedSweepsResolution();
+        if (!simultaneous_) simultaneous_ = makeSweepsOfOne();
         impacts.moving_sweep_limit = std::max(settings.moving_sweep_limit, simultaneous_sweeps);
         impacts.small_sweep_part = 1;
         return simultaneous_->resolve(batch, contacts, bodies, impacts, executor);
@@ -81,16 +78,20 @@ class ImpactsFirst final : public Resolution {
         }
     }
 
-    std::unique_ptr<Resolution> resolution_;
+    std::unique_ptr<BatchResolution> resolution_;
     Impacts own_;
-    std::unique_ptr<Resolution> sequential_;
-    std::unique_ptr<Resolution> simultaneous_;
+    std::unique_ptr<BatchResolution> sequential_;
+    std::unique_ptr<BatchResolution> simultaneous_;
     std::vector<JointBlock> joints_;  ///< after the impacts
 };
 
 }  // namespace
 
-std::unique_ptr<Resolution> makeImpactsFirst(std::unique_ptr<Resolution> resolution, Impacts own) {
+bool putsImpactsFirst(const ResolutionSettings& settings, Impacts own) {
+    return wantedOf(settings, own) != own;
+}
+
+std::unique_ptr<BatchResolution> makeImpactsFirst(std::unique_ptr<BatchResolution> resolution, Impacts own) {
     return std::make_unique<ImpactsFirst>(std::move(resolution), own);
 }
 

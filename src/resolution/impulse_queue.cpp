@@ -166,7 +166,7 @@ std::int64_t QueueSolver::resolve(Queue& queue, std::uint32_t contact) {
 namespace {
 
 /// Algorithm 9 for the whole batch, then Algorithm 10 if that was not enough.
-class ImpulseQueueResolution final : public Resolution {
+class ImpulseQueueResolution final : public BatchResolution {
   public:
     ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
                              const ResolutionSettings& settings, const Executor&) override {
@@ -231,7 +231,7 @@ class ImpulseQueueResolution final : public Resolution {
 
 }  // namespace
 
-std::unique_ptr<Resolution> makeImpulseQueueResolution() {
+std::unique_ptr<BatchResolution> makeImpulseQueueResolution() {
     return std::make_unique<ImpulseQueueResolution>();
 }
 

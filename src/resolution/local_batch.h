@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "batches/batch_motion.h"
 #include "resolution/batch_joints.h"
-#include "resolution/batch_motion.h"
 #include "resolution/contact_colours.h"
 #include "resolution/contact_frame.h"
 #include "resolution/resolution.h"

@@ -1,8 +1,6 @@
 #include "resolution/resolution.h"
 
 #include "resolution/algorithms.h"
-#include "resolution/awake_part.h"
-#include "resolution/energy_bound.h"
 #include "resolution/impacts_first.h"
 
 namespace cairn {
@@ -12,10 +10,7 @@ namespace {
 /// Leaves everything as it is: bodies fall through each other.
 class NoResolution final : public Resolution {
   public:
-    ResolutionCounts resolve(const BatchView&, std::span<Contact>, const BodyState&, const ResolutionSettings&,
-                             const Executor&) override {
-        return {};
-    }
+    ResolutionCounts resolve(const ResolutionInput&) override { return {}; }
 };
 
 }  // namespace
@@ -23,13 +18,11 @@ class NoResolution final : public Resolution {
 std::unique_ptr<Resolution> makeResolution(ResolutionKind kind) {
     switch (kind) {
         case ResolutionKind::impulse_queue:
-            return makeAwakePart(makeImpactsFirst(makeImpulseQueueResolution(), Impacts::sequential), Sleepers::wake);
+            return makePerBatch([] { return makeImpactsFirst(makeImpulseQueueResolution(), Impacts::sequential); });
         case ResolutionKind::sweep:
-            return makeAwakePart(makeImpactsFirst(makeSweepResolution(), Impacts::sequential), Sleepers::wake);
+            return makePerBatch([] { return makeImpactsFirst(makeSweepResolution(), Impacts::sequential); });
         case ResolutionKind::accelerated_sweeps:
-            return makeAwakePart(
-                makeEnergyBound(makeImpactsFirst(makeAcceleratedSweepsResolution(), Impacts::simultaneous)),
-                Sleepers::remain);
+            return makeSweepsOfAll();
         case ResolutionKind::none:
             break;
     }

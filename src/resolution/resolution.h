@@ -17,19 +17,31 @@ struct ResolutionCounts {
     std::int64_t global_iterations = 0;
     std::int64_t shock_iterations = 0;
     std::int64_t shock_batches = 0;
+
+    void add(const ResolutionCounts& other) {
+        global_iterations += other.global_iterations;
+        shock_iterations += other.shock_iterations;
+        shock_batches += other.shock_batches;
+    }
 };
 
-/// Changes velocities so that no contact closes any more. One object per thread: it owns its scratch memory.
+/// What a resolution reads and writes.
+struct ResolutionInput {
+    std::span<const BatchView> batches;  ///< no two of them share a body that moves
+    std::span<Contact> contacts;
+    const BodyState& bodies;
+    const ResolutionSettings& settings;
+    const Executor& executor;
+};
+
+/// Changes velocities so that no contact closes any more. It gets all batches of a step at once, so that it may divide
+/// them among threads and vectors as suits it. Owns its scratch memory.
 class Resolution {
   public:
     virtual ~Resolution() = default;
-    /// Resolves one batch: changes v and w, wakes sleeping bodies whose contact is processed (wake condition 3), adds
-    /// to the contacts' impulses.
-    /// @param executor for algorithms that work on one batch with several threads
-    virtual ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
-                                     const ResolutionSettings& settings, const Executor& executor) = 0;
-    /// Whether a batch is worth all threads together, and can be divided among them.
-    virtual bool wantsAllThreads(const BatchView&, std::span<const Contact>) const { return false; }
+    /// Changes v and w, wakes sleeping bodies whose contact is processed (wake condition 3), adds to the contacts'
+    /// impulses. The same on any number of threads.
+    virtual ResolutionCounts resolve(const ResolutionInput& input) = 0;
 };
 
 std::unique_ptr<Resolution> makeResolution(ResolutionKind kind);

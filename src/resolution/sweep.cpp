@@ -12,7 +12,7 @@ namespace {
 /// Goes through the contacts in ascending order, again and again, and resolves each that closes (projected Gauss–Seidel
 /// in the sense that no impulse pulls). Shares with the thesis's algorithm the law of one contact, nothing else: no
 /// queue, no lists, every velocity computed afresh.
-class SweepResolution final : public Resolution {
+class SweepResolution final : public BatchResolution {
   public:
     ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
                              const ResolutionSettings& settings, const Executor&) override {
@@ -52,7 +52,7 @@ class SweepResolution final : public Resolution {
 
 }  // namespace
 
-std::unique_ptr<Resolution> makeSweepResolution() {
+std::unique_ptr<BatchResolution> makeSweepResolution() {
     return std::make_unique<SweepResolution>();
 }
 

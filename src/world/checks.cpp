@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "batches/batch_motion.h"
 #include "math/rotation.h"
-#include "resolution/batch_motion.h"
 #include "world/joints.h"
 #include "world/motions.h"
 #include "world/totals.h"

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "activity/sleeping.h"
 #include "integration/integration.h"
 #include "resolution/contact_law.h"
-#include "sleeping/sleeping.h"
 #include "world/totals.h"
 
 namespace cairn {

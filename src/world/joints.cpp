@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "sleeping/sleeping.h"
+#include "activity/sleeping.h"
 
 namespace cairn {
 
@@ -95,14 +95,10 @@ void buildJointBlocks(WorldState& world) {
                      block);
         }
     }
-}
-
-BatchView batchOf(WorldState& world, std::uint32_t batch) {
-    StepData& data = world.data;
-    BatchView view = data.batches[batch];
-    view.joints = std::span(data.joint_blocks)
-                      .subspan(data.joint_begin[batch], data.joint_begin[batch + 1] - data.joint_begin[batch]);
-    return view;
+    for (std::size_t i = 0; i < data.views.size(); ++i) {
+        data.views[i].joints =
+            std::span(data.joint_blocks).subspan(data.joint_begin[i], data.joint_begin[i + 1] - data.joint_begin[i]);
+    }
 }
 
 void countJointSupports(const WorldState& world, std::span<std::int32_t> supports) {

@@ -11,11 +11,8 @@ void prepareJoints(WorldState& world);
 /// Wakes the sleeping bodies of every group of which a body is awake: they sleep and wake together.
 void wakeJointed(WorldState& world);
 
-/// Rows of all joints where their bodies are now, batch after batch.
+/// Rows of all joints where their bodies are now, batch after batch, and which of them are whose.
 void buildJointBlocks(WorldState& world);
-
-/// A batch with its joints.
-BatchView batchOf(WorldState& world, std::uint32_t batch);
 
 /// A joint supports both its bodies like a contact in the direction of gravity.
 void countJointSupports(const WorldState& world, std::span<std::int32_t> supports);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "batches/batch_motion.h"
 #include "math/rotation.h"
-#include "resolution/batch_motion.h"
 
 namespace cairn {
 

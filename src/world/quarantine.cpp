@@ -61,11 +61,9 @@ void summarize(WorldState& world) {
         s.uncorrected_contacts += counts.uncorrected;
         s.displaced_bodies += counts.displaced;
     }
-    for (const ResolutionCounts& counts : data.resolution_counts) {
-        s.global_iterations += counts.global_iterations;
-        s.shock_iterations += counts.shock_iterations;
-        s.shock_batches += counts.shock_batches;
-    }
+    s.global_iterations = data.resolution_counts.global_iterations;
+    s.shock_iterations = data.resolution_counts.shock_iterations;
+    s.shock_batches = data.resolution_counts.shock_batches;
     s.batches = static_cast<std::int64_t>(data.batches.size());
     for (std::size_t i = 0; i < data.batches.size(); ++i) {
         s.largest_batch = std::max(s.largest_batch, static_cast<std::int64_t>(data.batches[i].contacts.size()));

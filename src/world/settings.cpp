@@ -190,8 +190,6 @@ const std::vector<SettingField>& settingTable() {
             "smooth motion follows the mean of a step's velocities, so that free bodies keep to the parabola"),
         plain<&S::parallel, &P::threads>("threads", "parallel", "", 1, 1024,
                                          "threads of a step; results do not depend on it"),
-        plain<&S::parallel, &P::large_batch>("large_batch", "parallel", "contacts", 1, 1e9,
-                                             "batches with at least so many contacts are handed out one by one"),
         plain<&S::limits, &LimitSettings::body_limit>("body_limit", "limits", "", 1, 1e9,
                                                       "most bodies at one time; one more is refused"),
         plain<&S::diagnostics, &DiagnosticsSettings::diagnostics>(

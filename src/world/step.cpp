@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <chrono>
 
+#include "activity/sleeping.h"
 #include "integration/damping.h"
 #include "integration/integration.h"
 #include "pairs/warm_start.h"
-#include "sleeping/sleeping.h"
 #include "world/checks.h"
 #include "world/diagnostics.h"
 #include "world/events.h"
@@ -19,9 +19,6 @@ namespace cairn {
 
 namespace {
 
-/// Fewest small batches worth a thread of their own.
-constexpr std::size_t small_batch_grain = 64;
-
 /// Runs a stage and notes its wall time.
 template <class Work>
 void timed(Statistics& statistics, Stage stage, const Work& work) {
@@ -31,37 +28,8 @@ void timed(Statistics& statistics, Stage stage, const Work& work) {
     statistics.stage_ms[static_cast<std::size_t>(stage)] = passed.count();
 }
 
-/// Works on all batches of the schedule from one on: large ones one by one, largest first, then the small ones in
-/// blocks. @source thesis §4
-template <class Work>
-void forBatches(const StepData& data, std::size_t first, const Executor& executor, const Work& work) {
-    const std::size_t small_begin = std::max(first, data.large_batches);
-    executor.forEachDynamic(small_begin - first,
-                            [&](std::size_t i, int thread) { work(data.schedule[first + i], thread); });
-    const std::size_t small = data.schedule.size() - small_begin;
-    executor.forBlocks(
-        small,
-        [&](std::size_t begin, std::size_t end, int thread) {
-            for (std::size_t i = begin; i < end; ++i) work(data.schedule[small_begin + i], thread);
-        },
-        small_batch_grain);
-}
-
 void measureIfAsked(WorldState& world, Measured point) {
     if (world.settings.diagnostics.diagnostics) measure(world, point);
-}
-
-/// Puts batches on which the resolution wants all threads together first in the schedule. @return their number
-std::size_t scheduleSharedFirst(WorldState& world) {
-    StepData& data = world.data;
-    const auto begin = data.schedule.begin();
-    std::ptrdiff_t shared = 0;
-    for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(data.large_batches); ++i) {
-        if (!world.resolutions.front()->wantsAllThreads(batchOf(world, begin[i]), data.contacts)) continue;
-        std::rotate(begin + shared, begin + i, begin + i + 1);
-        ++shared;
-    }
-    return static_cast<std::size_t>(shared);
 }
 
 /// Whether contacts begin with the impulses that the last step ended with.
@@ -91,8 +59,9 @@ void buildBatchesStage(WorldState& world) {
     StepData& data = world.data;
     buildBatches(world.bodies.kind, data.contacts, data.batch_scratch, data.batches, world.joints);
     listContacts(world.bodies.kind, data.contacts, data.contacts_of);
-    data.large_batches =
-        scheduleBatches(data.batches, static_cast<std::size_t>(world.settings.parallel.large_batch), data.schedule);
+    data.views.resize(data.batches.size());
+    for (std::size_t i = 0; i < data.views.size(); ++i) data.views[i] = data.batches[i];
+    data.schedule.arrange(data.views);
     if (world.checks != Checks::off) checkBatches(world);
 }
 
@@ -100,9 +69,9 @@ void correctBatches(WorldState& world) {
     StepData& data = world.data;
     BodyState bodies = world.bodies.state();
     bodies.acceleration = world.gravity + world.global_acceleration;
-    forBatches(data, 0, world.executor, [&](std::uint32_t batch, int thread) {
+    data.schedule.forEach(world.executor, [&](std::uint32_t batch, int thread) {
         const auto t = static_cast<std::size_t>(thread);
-        const CorrectionCounts counts = world.corrections[t]->correct(data.batches[batch], data.contacts_of,
+        const CorrectionCounts counts = world.corrections[t]->correct(data.views[batch], data.contacts_of,
                                                                       data.contacts, bodies, world.settings.correction);
         data.correction_counts[t].penetrating += counts.penetrating;
         data.correction_counts[t].corrected += counts.corrected;
@@ -168,6 +137,27 @@ void velocityStage(WorldState& world) {
     }
 }
 
+/// What of the batches is left out because it sleeps.
+Selecting selectingOf(const WorldState& world) {
+    const ResolutionKind resolution = world.settings.resolution.resolution;
+    if (resolution == ResolutionKind::none) return Selecting::everything;
+    return resolution == ResolutionKind::accelerated_sweeps ? Selecting::awake_parts : Selecting::awake_batches;
+}
+
+/// Resolves what is awake, and more of it where that disturbs sleepers.
+void resolveChosen(WorldState& world, BodyState& bodies) {
+    StepData& data = world.data;
+    const ResolutionSettings& settings = world.settings.resolution;
+    data.resolution_counts = {};
+    data.selection.begin({data.views, data.contacts, bodies, selectingOf(world), settings.wake_speed, world.executor});
+    bodies.held = data.selection.held();
+    do {
+        data.resolution_counts.add(
+            world.resolution->resolve({data.selection.chosen(), data.contacts, bodies, settings, world.executor}));
+    } while (data.selection.widen());
+    data.selection.finish();
+}
+
 void resolveStage(WorldState& world) {
     StepData& data = world.data;
     BodyState bodies = world.bodies.state();
@@ -181,19 +171,7 @@ void resolveStage(WorldState& world) {
     bodies.fall = (damping.damping_threshold > 0 ? 1 - damping.damping : 1.0) * world.settings.timeStep() *
                   (world.gravity + world.global_acceleration);
     buildJointBlocks(world);
-    data.resolution_counts.assign(world.resolutions.size(), {});
-    const auto resolve = [&](std::uint32_t batch, int thread, const Executor& executor) {
-        const auto t = static_cast<std::size_t>(thread);
-        const ResolutionCounts counts = world.resolutions[t]->resolve(batchOf(world, batch), data.contacts, bodies,
-                                                                      world.settings.resolution, executor);
-        data.resolution_counts[t].global_iterations += counts.global_iterations;
-        data.resolution_counts[t].shock_iterations += counts.shock_iterations;
-        data.resolution_counts[t].shock_batches += counts.shock_batches;
-    };
-    const std::size_t shared = scheduleSharedFirst(world);
-    for (std::size_t i = 0; i < shared; ++i) resolve(data.schedule[i], 0, world.executor);
-    const Executor alone;
-    forBatches(data, shared, world.executor, [&](std::uint32_t batch, int thread) { resolve(batch, thread, alone); });
+    resolveChosen(world, bodies);
     finishJoints(world);
     quarantine(world);
     measureIfAsked(world, Measured::resolution);

@@ -22,9 +22,8 @@ void WorldState::applySettings(const Settings& s) {
         corrections.clear();
         for (std::size_t t = 0; t < threads; ++t) corrections.push_back(makeCorrection(s.correction.correction));
     }
-    if (resolutions.size() != threads || s.resolution.resolution != settings.resolution.resolution) {
-        resolutions.clear();
-        for (std::size_t t = 0; t < threads; ++t) resolutions.push_back(makeResolution(s.resolution.resolution));
+    if (resolution == nullptr || s.resolution.resolution != settings.resolution.resolution) {
+        resolution = makeResolution(s.resolution.resolution);
     }
     executor = Executor(static_cast<int>(threads));
     if (s.steps_per_second != settings.steps_per_second) {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "activity/sleeping.h"
 #include "cairn/world.h"
 #include "geometry/body_mass.h"
-#include "sleeping/sleeping.h"
 #include "world/limits.h"
 #include "world/motions.h"
 #include "world/quarantine.h"

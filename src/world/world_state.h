@@ -7,7 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "activity/selection.h"
 #include "batches/batches.h"
+#include "batches/schedule.h"
 #include "body/body_storage.h"
 #include "body/contact.h"
 #include "body/material_table.h"
@@ -55,20 +57,21 @@ struct MeasuredData {
 
 /// The arrays that one stage leaves to the next; nothing else travels between stages. Named with their producer.
 struct StepData {
-    PairTable pairs;                      ///< detection: which contacts are of which two bodies
-    std::vector<Contact> contacts;        ///< detection, changed by correction and resolution: sorted by (a, b)
-    ContactsOfBodies contacts_of;         ///< batches: [slots] contact indices
-    Batches batches;                      ///< batches: groups in canonical order
-    BatchScratch batch_scratch;           ///< batches: kept memory
-    std::vector<std::uint32_t> schedule;  ///< batches: order of work, large ones first
-    std::size_t large_batches = 0;        ///< batches: how many of the schedule are large
-    VelocitiesBefore before;              ///< velocities: [slots], with exact_flight or RestitutionSpeed::touching only
-    JointGroups joint_groups;             ///< events: joints connected by bodies that can move
-    std::vector<std::uint8_t> jointed;    ///< events: [slots] 1 = has a joint; empty without joints
-    std::vector<BodyPair> excluded;       ///< events: pairs that joints keep from touching, sorted
-    std::vector<Sensed> sensed;           ///< detection: by sensor and body
-    std::vector<Vec3> surface;            ///< velocities: [slots] of fixed bodies' surfaces [m/s, W]; or empty
-    std::vector<std::uint8_t> carried;    ///< velocities: [slots] 1 = in a batch that a moving law touches; or empty
+    PairTable pairs;                    ///< detection: which contacts are of which two bodies
+    std::vector<Contact> contacts;      ///< detection, changed by correction and resolution: sorted by (a, b)
+    ContactsOfBodies contacts_of;       ///< batches: [slots] contact indices
+    Batches batches;                    ///< batches: groups in canonical order
+    BatchScratch batch_scratch;         ///< batches: kept memory
+    std::vector<BatchView> views;       ///< batches: [batches], and their joints since the resolution
+    BatchSchedule schedule;             ///< batches: order of work, large ones first
+    Selection selection;                ///< resolution: what of the batches is resolved
+    VelocitiesBefore before;            ///< velocities: [slots], with exact_flight or RestitutionSpeed::touching only
+    JointGroups joint_groups;           ///< events: joints connected by bodies that can move
+    std::vector<std::uint8_t> jointed;  ///< events: [slots] 1 = has a joint; empty without joints
+    std::vector<BodyPair> excluded;     ///< events: pairs that joints keep from touching, sorted
+    std::vector<Sensed> sensed;         ///< detection: by sensor and body
+    std::vector<Vec3> surface;          ///< velocities: [slots] of fixed bodies' surfaces [m/s, W]; or empty
+    std::vector<std::uint8_t> carried;  ///< velocities: [slots] 1 = in a batch that a moving law touches; or empty
     std::vector<std::uint8_t> not_sleeping;           ///< sleeping: [slots] 1 = does not fall asleep by itself
     std::vector<JointBlock> joint_blocks;             ///< resolution: batch after batch, in it group after group
     std::vector<std::uint32_t> joint_begin;           ///< resolution: [batches + 1] offsets into joint_blocks
@@ -76,7 +79,7 @@ struct StepData {
     std::vector<BrokenJoint> broken;                  ///< resolution: by slot
     std::vector<std::int32_t> supports;               ///< velocities: [slots] contacts in the direction of gravity
     std::vector<CorrectionCounts> correction_counts;  ///< correction: [threads]
-    std::vector<ResolutionCounts> resolution_counts;  ///< resolution: [threads]
+    ResolutionCounts resolution_counts;               ///< resolution
     MeasuredData measured;                            ///< every stage: with the setting diagnostics only
     std::vector<std::uint32_t> generation;  ///< output: [slots] generations of the bodies that the contacts name
 };
@@ -113,7 +116,7 @@ struct WorldState {
     Executor executor;
     std::unique_ptr<BroadPhase> broad_phase;
     std::vector<std::unique_ptr<Correction>> corrections;  ///< [threads]
-    std::vector<std::unique_ptr<Resolution>> resolutions;  ///< [threads]
+    std::unique_ptr<Resolution> resolution;
 
     MaterialTable materials;
     BodyStorage bodies;

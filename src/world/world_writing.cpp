@@ -1,9 +1,9 @@
 /// The part of World that writes the state of bodies, of one as of many.
 #include <fmt/core.h>
 
+#include "activity/sleeping.h"
 #include "cairn/world.h"
 #include "geometry/geometry.h"
-#include "sleeping/sleeping.h"
 #include "world/motions.h"
 #include "world/quarantine.h"
 #include "world/requirements.h"

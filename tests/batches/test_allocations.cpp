@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "batches/batches.h"
+#include "batches/schedule.h"
 #include "counted_new.h"
 
 namespace cairn {
@@ -16,18 +16,21 @@ TEST(BatchesMemory, AWarmStepAllocatesNothing) {
     BatchScratch scratch;
     Batches batches;
     ContactsOfBodies lists;
-    std::vector<std::uint32_t> order;
+    std::vector<BatchView> views;
+    BatchSchedule schedule;
     const auto step = [&] {
         const std::size_t before = test::allocations;
         buildBatches(kind, contacts, scratch, batches);
         listContacts(kind, contacts, lists);
-        scheduleBatches(batches, 2, order);
+        views.resize(batches.size());
+        for (std::size_t i = 0; i < views.size(); ++i) views[i] = batches[i];
+        schedule.arrange(views);
         return test::allocations - before;
     };
     EXPECT_GT(step(), 0u) << "the counter must work";
     EXPECT_EQ(step(), 0u);
     EXPECT_EQ(batches.size(), 100u);
-    EXPECT_EQ(order.size(), 100u);
+    EXPECT_EQ(schedule.order().size(), 100u);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "batches/batches.h"
+#include "batches/schedule.h"
 
 namespace cairn {
 namespace {
@@ -250,45 +251,52 @@ TEST(ContactsOfBodies, EqualASearchOnRandomGraphs) {
 }
 
 /// Batches with the given numbers of contacts; what is in them does not matter to the schedule.
-Batches batchesOfSizes(const std::vector<std::uint32_t>& sizes) {
-    Batches batches;
-    batches.body_begin.push_back(0);
-    batches.contact_begin.push_back(0);
-    for (const std::uint32_t size : sizes) {
-        batches.body_begin.push_back(batches.body_begin.back() + 1);
-        batches.contact_begin.push_back(batches.contact_begin.back() + size);
-    }
+std::vector<BatchView> batchesOfSizes(const std::vector<std::uint32_t>& sizes) {
+    static const std::vector<std::uint32_t> contacts(1000);
+    std::vector<BatchView> batches;
+    for (const std::uint32_t size : sizes) batches.push_back({{}, std::span(contacts).first(size), {}});
     return batches;
 }
 
-/// Figure 26 of the thesis: fewer than 8 contacts are small.
+std::vector<std::uint32_t> orderOf(const BatchSchedule& schedule) {
+    return {schedule.order().begin(), schedule.order().end()};
+}
+
+/// As in Figure 26 of the thesis.
 TEST(Schedule, PutsLargeBatchesFirstByDescendingSizeAndLeavesSmallOnesInOrder) {
-    std::vector<std::uint32_t> order = {99};
-    EXPECT_EQ(scheduleBatches(batchesOfSizes({3, 12, 5, 8, 1, 30, 7, 12, 2}), 8, order), 4u);
-    EXPECT_EQ(order, (std::vector<std::uint32_t>{5, 1, 7, 3, 0, 2, 4, 6, 8}));
+    BatchSchedule schedule;
+    schedule.arrange(batchesOfSizes({3, 48, 5, 32, 1, 120, 31, 48, 2}));
+    EXPECT_EQ(schedule.large(), 4u);
+    EXPECT_EQ(orderOf(schedule), (std::vector<std::uint32_t>{5, 1, 7, 3, 0, 2, 4, 6, 8}));
 }
 
 TEST(Schedule, KnowsOnlyLargeOnlySmallAndNoBatches) {
-    std::vector<std::uint32_t> order;
-    EXPECT_EQ(scheduleBatches(batchesOfSizes({8, 9, 8}), 8, order), 3u);
-    EXPECT_EQ(order, (std::vector<std::uint32_t>{1, 0, 2}));
-    EXPECT_EQ(scheduleBatches(batchesOfSizes({7, 1, 7}), 8, order), 0u);
-    EXPECT_EQ(order, (std::vector<std::uint32_t>{0, 1, 2}));
-    EXPECT_EQ(scheduleBatches(Batches{}, 8, order), 0u);
-    EXPECT_TRUE(order.empty());
+    BatchSchedule schedule;
+    schedule.arrange(batchesOfSizes({32, 33, 32}));
+    EXPECT_EQ(schedule.large(), 3u);
+    EXPECT_EQ(orderOf(schedule), (std::vector<std::uint32_t>{1, 0, 2}));
+    schedule.arrange(batchesOfSizes({31, 1, 31}));
+    EXPECT_EQ(schedule.large(), 0u);
+    EXPECT_EQ(orderOf(schedule), (std::vector<std::uint32_t>{0, 1, 2}));
+    schedule.arrange({});
+    EXPECT_EQ(schedule.large(), 0u);
+    EXPECT_TRUE(schedule.order().empty());
 }
 
-TEST(Schedule, ContainsEveryBatchOnceForAnyLimit) {
+TEST(Schedule, WorksOnEveryBatchOnceOnAnyNumberOfThreads) {
     Random random(6);
-    std::vector<std::uint32_t> sizes(200);
-    for (auto& size : sizes) size = 1 + random.below(20);
-    std::vector<std::uint32_t> order;
-    for (std::uint32_t large = 0; large < 25; ++large) {
-        const std::size_t count = scheduleBatches(batchesOfSizes(sizes), large, order);
-        for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(sizes[order[i]] >= large, i < count);
-        std::sort(order.begin(), order.end());
-        ASSERT_EQ(order.size(), sizes.size());
-        for (std::uint32_t i = 0; i < order.size(); ++i) ASSERT_EQ(order[i], i);
+    std::vector<std::uint32_t> sizes(300);
+    for (auto& size : sizes) size = 1 + random.below(40);
+    BatchSchedule schedule;
+    schedule.arrange(batchesOfSizes(sizes));
+    for (const int threads : {1, 2, 5}) {
+        const Executor executor(threads);
+        std::vector<int> times(sizes.size());
+        schedule.forEach(executor, [&](std::uint32_t batch, int thread) {
+            ASSERT_LT(thread, threads);
+            ++times[batch];
+        });
+        for (const int n : times) ASSERT_EQ(n, 1);
     }
 }
 

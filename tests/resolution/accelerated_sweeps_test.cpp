@@ -236,19 +236,5 @@ TEST(AcceleratedSweeps, AMovingSupportWakesABatch) {
     EXPECT_GT(pile.v[3].z(), 0.9);
 }
 
-TEST(AcceleratedSweeps, AskForAllThreadsOnlyWhereTheyCanDivideABatch) {
-    std::vector<Contact> contacts(1024);
-    std::vector<std::uint32_t> indices(contacts.size());
-    std::iota(indices.begin(), indices.end(), 0U);
-    const auto resolution = makeResolution(ResolutionKind::accelerated_sweeps);
-    EXPECT_TRUE(resolution->wantsAllThreads({{}, indices, {}}, contacts));
-    EXPECT_FALSE(resolution->wantsAllThreads({{}, std::span(indices).first(1023), {}}, contacts));
-    std::vector<JointBlock> joints(1);
-    EXPECT_FALSE(resolution->wantsAllThreads({{}, indices, joints}, contacts)) << "joints are swept one by one";
-    contacts.back().rolling_friction = 0.01;
-    EXPECT_FALSE(resolution->wantsAllThreads({{}, indices, {}}, contacts)) << "and so is rolling friction";
-    EXPECT_FALSE(makeResolution(ResolutionKind::impulse_queue)->wantsAllThreads({{}, indices, {}}, contacts));
-}
-
 }  // namespace
 }  // namespace cairn

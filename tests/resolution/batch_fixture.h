@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "activity/selection.h"
 #include "resolution/resolution.h"
 
 namespace cairn::test {
@@ -89,7 +90,23 @@ class Pile : public BodyStorage {
         }
         std::vector<std::uint32_t> indices(contacts.size());
         std::iota(indices.begin(), indices.end(), 0U);
-        return resolution.resolve({bodies, indices}, contacts, state(), settings, executor);
+        const BatchView batch{bodies, indices, {}};
+        BodyState all = state();
+        const bool parts = settings.resolution == ResolutionKind::accelerated_sweeps;
+        Selection selection;
+        selection.begin({{&batch, 1},
+                         contacts,
+                         all,
+                         parts ? Selecting::awake_parts : Selecting::awake_batches,
+                         settings.wake_speed,
+                         executor});
+        all.held = selection.held();
+        ResolutionCounts counts;
+        do {
+            counts.add(resolution.resolve({selection.chosen(), contacts, all, settings, executor}));
+        } while (selection.widen());
+        selection.finish();
+        return counts;
     }
 
     /// δ of a contact, straight from its definition. @source thesis (3.4.2)

@@ -89,16 +89,6 @@ TEST(ContactColours, FixedBodiesNeedNoColourOfTheirOwn) {
     EXPECT_EQ(colours.colours(), 1U);
 }
 
-TEST(ContactColours, KeepTheOrderWhereAsked) {
-    ContactColours colours;
-    colours.keepOrder(5);
-    EXPECT_TRUE(std::ranges::equal(colours.order(), counted(5)));
-    ASSERT_EQ(colours.colours(), 1U);
-    EXPECT_FALSE(colours.isShared(0));
-    EXPECT_EQ(colours.begin(0, 0), 0U);
-    EXPECT_EQ(colours.begin(0, 1), 5U);
-}
-
 TEST(ContactColours, NothingHasNoColours) {
     ContactColours colours;
     colours.colour({}, 10);

@@ -1,4 +1,4 @@
-#include "sleeping/sleeping.h"
+#include "activity/sleeping.h"
 
 #include <algorithm>
 #include <cmath>

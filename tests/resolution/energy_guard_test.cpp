@@ -32,7 +32,7 @@ Pile chain(double last) {
     return pile;
 }
 
-TEST(EnergyBound, ForgetsImpulsesOfAnotherSituation) {
+TEST(EnergyGuard, ForgetsImpulsesOfAnotherSituation) {
     Pile pile = chain(50);
     const double before = pile.energy();
     pile.resolve(fewSweeps());
@@ -41,7 +41,7 @@ TEST(EnergyBound, ForgetsImpulsesOfAnotherSituation) {
     EXPECT_GT(pile.contacts[0].impulse.norm(), 0.01) << "the ball on the table was stopped";
 }
 
-TEST(EnergyBound, LeavesGoodImpulsesAlone) {
+TEST(EnergyGuard, LeavesGoodImpulsesAlone) {
     Pile cold = chain(0);
     Pile warm = cold;
     cold.resolve(fewSweeps());

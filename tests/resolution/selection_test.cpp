@@ -39,7 +39,7 @@ int sleepersOf(const Pile& pile) {
     return static_cast<int>(std::ranges::count(pile.asleep, 1));
 }
 
-TEST(AwakePart, AnImpactGoesThroughASleepingRowInTheSameStep) {
+TEST(Selection, AnImpactGoesThroughASleepingRowInTheSameStep) {
     Pile pile = row(40);
     pile.v[0] = Vec3(20, 0, 0);
     pile.resolve(holdingSleepers());
@@ -48,7 +48,7 @@ TEST(AwakePart, AnImpactGoesThroughASleepingRowInTheSameStep) {
     for (const Vec3& v : pile.v) EXPECT_NEAR(v.x(), 0.5, 1e-6);
 }
 
-TEST(AwakePart, WhatIsTooSlowToWakeAnythingStops) {
+TEST(Selection, WhatIsTooSlowToWakeAnythingStops) {
     Pile pile = row(40);
     pile.v[0] = Vec3(0.7 * wake_speed, 0, 0);
     pile.resolve(holdingSleepers());
@@ -56,7 +56,7 @@ TEST(AwakePart, WhatIsTooSlowToWakeAnythingStops) {
     for (const Vec3& v : pile.v) EXPECT_LT(v.norm(), 1e-12);
 }
 
-TEST(AwakePart, WithoutAWakeSpeedAllAreResolved) {
+TEST(Selection, WithoutAWakeSpeedAllAreResolved) {
     Pile pile = row(40);
     pile.v[0] = Vec3(0.002, 0, 0);
     pile.resolve(holdingSleepers(0));
@@ -64,7 +64,7 @@ TEST(AwakePart, WithoutAWakeSpeedAllAreResolved) {
     EXPECT_NEAR(pile.momentum().x(), 0.002, 1e-12);
 }
 
-TEST(AwakePart, WhatCarriesTheSamePushSleepsOnAndKeepsItsImpulses) {
+TEST(Selection, WhatCarriesTheSamePushSleepsOnAndKeepsItsImpulses) {
     Pile pile = row(10);
     for (Contact& contact : pile.contacts) {
         contact.last_impulse = -0.5 * Vec3::UnitX();
@@ -78,7 +78,7 @@ TEST(AwakePart, WhatCarriesTheSamePushSleepsOnAndKeepsItsImpulses) {
     EXPECT_EQ(pile.contacts[0].reference_impulse, pile.contacts[0].last_impulse) << "small differences add up";
 }
 
-TEST(AwakePart, WhoIsResolvedAlongSleepsOnUnlessItIsPushed) {
+TEST(Selection, WhoIsResolvedAlongSleepsOnUnlessItIsPushed) {
     for (const double part_of_limit : {0.9, 1.1}) {
         Pile pile = row(4);  // of which too few sleep to be held
         const double common = part_of_limit * wake_speed / std::sqrt(2);
@@ -94,7 +94,7 @@ TEST(AwakePart, WhoIsResolvedAlongSleepsOnUnlessItIsPushed) {
     }
 }
 
-TEST(AwakePart, AContactOfTwoAwakeBodiesIsTheNextReference) {
+TEST(Selection, AContactOfTwoAwakeBodiesIsTheNextReference) {
     Pile pile = row(3);
     pile.v[0] = Vec3(3, 0, 0);
     pile.resolve(holdingSleepers());
@@ -102,7 +102,7 @@ TEST(AwakePart, AContactOfTwoAwakeBodiesIsTheNextReference) {
     EXPECT_NEAR(pile.contacts[0].impulse.x(), -2, 1e-9);
 }
 
-TEST(AwakePart, TheImpulseQueueWakesWhatItTouches) {
+TEST(Selection, TheImpulseQueueWakesWhatItTouches) {
     Pile pile = row(3);
     pile.v[0] = Vec3(0.003, 0, 0);
     ResolutionSettings settings = holdingSleepers();

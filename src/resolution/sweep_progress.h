@@ -1,0 +1,80 @@
+/// @file When the sweeps over a batch may end, and how they are accelerated.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "resolution/swept_batch.h"
+
+namespace cairn {
+
+/// How far a batch is swept.
+struct SweepPlan {
+    std::int64_t limit = 1;        ///< of sweeps
+    double steady_speed = 0;       ///< a sweep that changes no contact's velocity by more is the last one [m/s]
+    double tolerance = 0;          ///< part of the change that may be left; 0 = none
+    double safe_speed = 0;         ///< with which nothing gets far into another body in a step [m/s]
+    double change_by_gravity = 0;  ///< what gravity gives the bodies in a step, in the measure of SweepChange
+};
+
+/// The course of the sweeps over one batch. The change of the impulses by a sweep is taken as the negative gradient of
+/// the nonsmooth nonlinear conjugate gradient method.
+/// @source Silcowitz-Hansen, Niebe, Erleben: A nonsmooth nonlinear conjugate gradient method for interactive contact
+///         force problems, The Visual Computer 26 (2010), doi:10.1007/s00371-010-0502-6
+class SweepProgress {
+  public:
+    SweepProgress() = default;
+    explicit SweepProgress(const SweepPlan& plan) : plan_(plan) {}
+
+    /// Whether the next sweep is the last one whatever it changes.
+    bool isLast() const { return sweeps_ + 1 >= plan_.limit; }
+    std::int64_t sweeps() const { return sweeps_; }
+    void countSweep() { ++sweeps_; }
+
+    /// To be called after every sweep whose change is known. @return whether the impulses need no further sweep
+    bool isSteady(const SweepChange& change) {
+        const bool enough = isLittleLeft(std::sqrt(change.squared)) && change.largest_speed <= plan_.safe_speed;
+        return !(change.largest_speed > plan_.steady_speed) || enough;
+    }
+
+    /// Whether there is a last direction.
+    bool hasDirection() const { return gradient_ != 0; }
+    double gradient() const { return gradient_; }
+    /// How much of the last direction is added after a sweep.
+    double beta(const SweepChange& change) const {
+        return gradient_ > 0 && change.squared <= gradient_ ? change.squared / gradient_ : 0;
+    }
+    /// Notes the change of a sweep that was accelerated.
+    void advance(const SweepChange& change) { gradient_ = change.squared; }
+    void forgetDirection() { gradient_ = 0; }
+
+  private:
+    /// How much less a sweep changes than the one before it: what is assumed after the second sweep, since the first
+    /// one also changes what no other contact has a part in, and the bounds within which later ones are believed.
+    /// Sweeps that seem not to converge at all count as slow ones.
+    static constexpr double assumed_rate = 0.7, fastest_rate = 0.3, slowest_rate = 0.95;
+
+    /// Estimates what all further sweeps would change, from how fast the changes become smaller: after a change c of a
+    /// part r of the one before it, a geometric series leaves c·r/(1 − r). Deep piles, through which impulses have a
+    /// long way, converge slowly and so are swept longer than shallow ones.
+    bool isLittleLeft(double change) {
+        if (plan_.tolerance == 0) return false;
+        const double least = estimates_ == 1 ? assumed_rate : fastest_rate;
+        const double rate = last_ > 0 ? std::clamp(change / last_, least, slowest_rate) : slowest_rate;
+        const double left = estimates_ == 0 ? change : change * rate / (1 - rate);
+        last_ = change;
+        if (estimates_++ == 0) first_ = change;
+        const double scale = estimates_ == 1 ? plan_.change_by_gravity : std::max(plan_.change_by_gravity, first_);
+        return left <= plan_.tolerance * scale;
+    }
+
+    SweepPlan plan_;
+    std::int64_t sweeps_ = 0;
+    double gradient_ = 0;  ///< squared change of the last sweep; 0 = there is no direction
+    double first_ = 0;
+    double last_ = 0;
+    int estimates_ = 0;
+};
+
+}  // namespace cairn
