@@ -62,7 +62,12 @@ class BodyStorage : public BodyArrays {
   public:
     /// The pose of the shape's frame S in B, and in W.
     Pose shapeInBody(BodyIndex i) const { return {p_BS[i], R_BS[i]}; }
-    Pose shapePose(BodyIndex i) const { return Pose{position[i], orientation[i]}.toOuter(shapeInBody(i)); }
+    Pose shapePose(BodyIndex i) const {
+        const Pose body{position[i], orientation[i]};
+        // Most shapes have their frame where the body has its own.
+        if (R_BS[i].w() == 1 && p_BS[i].isZero(0)) return body;
+        return body.toOuter(shapeInBody(i));
+    }
     /// Sets position and orientation of B from those of S. @param pose of S in W, a unit quaternion
     void setShapePose(BodyIndex i, const Pose& pose) {
         const Pose body = pose.toOuter(shapeInBody(i).inverse());

@@ -42,7 +42,8 @@ void beginContacts(std::span<Contact> contacts, WarmStart warm_start, const Exec
 }
 
 void inheritImpulses(const BodyStorage& bodies, std::span<const Contact> before, std::span<FoundContact> now) {
-    if (before.empty() || now.empty()) return;
+    const auto isIdle = [](const Contact& c) { return c.last_impulse.isZero(0) && c.reference_impulse.isZero(0); };
+    if (now.empty() || std::ranges::all_of(before, isIdle)) return;
     const auto [a, b] = std::pair(before.front().a, before.front().b);
     const Motion with_a(bodies, a);
     const Motion with_b(bodies, b);
@@ -50,6 +51,7 @@ void inheritImpulses(const BodyStorage& bodies, std::span<const Contact> before,
     // Every impulse goes to one contact as a whole: where points of a manifold merge or split, the pair still gets the
     // same push in total.
     for (const Contact& old : before) {
+        if (isIdle(old)) continue;
         const Vec3 on_a = with_a.movedPoint(old.point);
         const Vec3 on_b = with_b.movedPoint(old.point);
         const Vec3 normal = with_a.turned(old.normal);

@@ -59,7 +59,7 @@ void LaneSweeper<Number>::beginLanes(const SweptBatch& swept, std::size_t contac
         addGroup(pairs, own_order_, swept.local);
     }
     group_begin_.assign({0, groups_.size()});
-    resizeTightly(contacts_, contact_of_.size() / lanes);
+    contacts_ = firstOf(contact_memory_, contact_of_.size() / lanes);
     beginGroups(swept);
 }
 
@@ -174,7 +174,7 @@ void LaneSweeper<Number>::arrange(const LocalBatch& local) {
         if (rest_count > 0) addGroup(rest, colours_.order(), local);
         group_begin_.push_back(groups_.size());
     }
-    resizeTightly(contacts_, contact_of_.size() / lanes);
+    contacts_ = firstOf(contact_memory_, contact_of_.size() / lanes);
 }
 
 /// @param pairs some of which are there
@@ -219,7 +219,7 @@ void LaneSweeper<Number>::visitGroups(std::size_t colour, const SweptBatch& swep
                 const Group& group = groups_[way == Way::forth ? first + n : first + count - 1 - n];
                 SweptBody<Number> a = load<Number>(bodies, group.a);
                 SweptBody<Number> b = load<Number>(bodies, group.b);
-                visit(std::span(contacts_).subspan(group.begin, group.end - group.begin), a, b);
+                visit(contacts_.subspan(group.begin, group.end - group.begin), a, b);
                 store(a, group.a, group.moves, 1, bodies);
                 store(b, group.b, group.moves, 2, bodies);
             }

@@ -93,11 +93,12 @@ class LaneSweeper {
     void writeImpulse(std::size_t contact, const SweptBatch& swept) const;
 
     ContactColours colours_;
-    std::vector<Group> groups_;                        ///< by colours
-    std::vector<std::size_t> group_begin_;             ///< [colours + 1] into groups_
-    std::size_t shared_ = 0;                           ///< the groups of colours below this share no body that moves
-    std::vector<std::uint32_t> own_order_;             ///< [contacts] their indices, for several batches
-    std::vector<BasicSweptContact<Number>> contacts_;  ///< by groups
+    std::vector<Group> groups_;                      ///< by colours
+    std::vector<std::size_t> group_begin_;           ///< [colours + 1] into groups_
+    std::size_t shared_ = 0;                         ///< the groups of colours below this share no body that moves
+    std::vector<std::uint32_t> own_order_;           ///< [contacts] their indices, for several batches
+    std::span<BasicSweptContact<Number>> contacts_;  ///< by groups
+    std::vector<BasicSweptContact<Number>> contact_memory_;  ///< contacts_ and more
     std::vector<std::uint32_t> contact_of_;  ///< [lanes · contacts_] the batch's contact in each lane, or none
     std::vector<std::uint32_t> slot_of_;     ///< [contacts] where each contact of the batch is in contact_of_
     std::vector<Triple<Number>> before_;     ///< [contacts_] impulses at the beginning of the sweep [N·s]
