@@ -85,7 +85,7 @@ golden:
 	@build/release/tests/golden/golden tests/golden/hashes.json $(if $(UPDATE),--update)
 
 sanitize:
-	@tools/install_packages build check develop
+	@tools/install_packages build check develop python
 	@tools/sanitize asan-ubsan
 	@tools/sanitize tsan
 

@@ -16,7 +16,7 @@ import numpy as np
 
 SHORT = "CAIRN_SHORT" in os.environ
 G, GRAIN, DENSITY = 9.81, 0.1, 2500.0
-COUNT, WIDTH = (500, 10 * GRAIN) if SHORT else (1500, 12 * GRAIN)
+COUNT, WIDTH = (350, 9 * GRAIN) if SHORT else (1500, 12 * GRAIN)
 SETTLED, BELOW = 1.2, -1.5
 
 # %%
@@ -121,6 +121,7 @@ left.legend()
 # To the power of 2/5 the rates lie on a line that meets the axis at k and whose slope is that of C.
 slope, intercept = np.polyfit(holes, np.array(rates) ** 0.4, 1)
 print(f"C = {slope ** 2.5:.2f}, k = {-intercept / slope:.2f}, density of the filling {density:.0f} kg/m³")
+assert abs(np.array(rates) / (0.58 * (holes - 1.4) ** 2.5) - 1).max() < 0.3
 sizes = np.linspace(1.6, 7.4, 50)
 right.fill_between(sizes, 0.55**0.4 * (sizes - 1.6), 0.65**0.4 * (sizes - 1.2), color="0.85",
                    label="Beverloo: C = 0.55 to 0.65, k = 1.2 to 1.6")
@@ -128,7 +129,7 @@ right.plot(sizes, slope * sizes + intercept, "-", color="0.4", label=f"C = {slop
 right.plot(holes, np.array(rates) ** 0.4, "o", color="0.1", label="simulated")
 right.set_xlabel("diameter of the hole D / d")
 right.set_ylabel("(W / (ρ √g d^(5/2)))^(2/5)")
-right.legend()
+right.legend(loc="lower right")
 fig.tight_layout()
 plt.show()
 
