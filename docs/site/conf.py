@@ -1,6 +1,7 @@
 """The site: what tools/make_site has gathered, with the references of C++ and Python and the gallery."""
 
 import os
+import re
 from pathlib import Path
 
 BUILT = Path(os.environ["CAIRN_SITE"])
@@ -33,3 +34,14 @@ sphinx_gallery_conf = {
 
 # Headers declare what others define, and pages may begin below the first level.
 suppress_warnings = ["myst.header", "cpp.duplicate_declaration"]
+
+OVERLOAD = re.compile(r"\d+\. \w+\(|\w+\(\*args, \*\*kwargs\)$|Overloaded function\.$")
+
+
+def leave_out_overloads(_app, _what, _name, _object, _options, lines):
+    """The lines of signatures that pybind11 writes among the texts of overloads are no prose."""
+    lines[:] = [line for line in lines if not OVERLOAD.match(line)]
+
+
+def setup(app):
+    app.connect("autodoc-process-docstring", leave_out_overloads)

@@ -86,7 +86,7 @@ def run(
     frames = max(math.ceil(scene_run.scene.duration * _core.simulation_steps_per_second - 1e-6), 1)
     writer: Optional[_core.RecordingWriter] = None
     if record is not None:
-        # A recording of the same name that is still looked at, as where a cell of a notebook runs again, stays readable.
+        # A recording of that name which is still looked at, as where a cell of a notebook runs again, stays readable.
         Path(record).unlink(missing_ok=True)
         per_frame = scene_run.steps_per_simulation_step if hashes else 0
         writer = _core.RecordingWriter(record, scene_run.scene, chosen, per_frame)

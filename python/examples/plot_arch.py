@@ -2,8 +2,8 @@
 The least thickness of an arch
 ==============================
 
-A semicircular arch stands under its own weight as long as a line of thrust fits into it: for thicknesses above 0.1075 of
-its mean radius (Milankovitch 1907; Ochsendorf 2002 tells the history). Simulated voussoirs find the same border.
+A semicircular arch stands under its own weight as long as a line of thrust fits into it: for thicknesses above 0.1075
+of its mean radius (Milankovitch 1907; Ochsendorf 2002 tells the history). Simulated voussoirs find the same border.
 """
 
 import math

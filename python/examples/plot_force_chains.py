@@ -4,8 +4,8 @@ Force chains and fabric of a sheared packing
 
 A layer of balls bears its own weight, then its walls are pushed together: the packing is sheared. Lines of force turn
 from the upright to the level direction, and so do the directions of the contacts, which are the fabric. Rothenburg and
-Bathurst (1989) derived how the strength follows from both: the ratio of the stresses, (σ₁ − σ₃) / (σ₁ + σ₃), is half the
-sum of the anisotropies of directions, normal forces and tangential forces.
+Bathurst (1989) derived how the strength follows from both: the ratio of the stresses, (σ₁ − σ₃) / (σ₁ + σ₃), is half
+the sum of the anisotropies of directions, normal forces and tangential forces.
 """
 
 import math
@@ -14,10 +14,12 @@ import os
 import cairn
 import matplotlib.pyplot as plt
 import numpy as np
+import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
 SHORT = "CAIRN_SHORT" in os.environ
+Floats = npt.NDArray[np.float64]
 G, RADIUS, WIDTH = 9.81, 0.02, 1.0
 COUNT, SETTLED, SHEARED = (110, 0.8, 0.3) if SHORT else (420, 1.5, 2.0)
 SPEED, FALLEN = 0.04, 0.5
@@ -68,8 +70,8 @@ FIRST = 5
 # %%
 # From the rows of :meth:`cairn.World.contacts` come force and direction of each contact between two balls, and from
 # these the stress (Love, Weber), the fabric and the anisotropies.
-def between_balls(world: cairn.World) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Both centres [m], shape (n, 2, 2), normals, shape (n, 2), and forces on the first [N], shape (n, 2): in the plane."""
+def between_balls(world: cairn.World) -> tuple[Floats, Floats, Floats]:
+    """In the plane: both centres [m], shape (n, 2, 2), normals and forces on the first [N], shape (n, 2)."""
     contacts = world.contacts()
     contacts = contacts[(contacts["a"]["index"] >= FIRST) & contacts["impulse"].any(axis=1)]
     centre = world.bodies.centre_of_mass[:, [0, 2]]
@@ -79,7 +81,7 @@ def between_balls(world: cairn.World) -> tuple[np.ndarray, np.ndarray, np.ndarra
     return ends, normal, contacts["impulse"][:, [0, 2]] * world.settings.steps_per_second
 
 
-def deviator(tensor: np.ndarray) -> float:
+def deviator(tensor: Floats) -> float:
     """How much more of it is level than upright, as a part of both."""
     return float((tensor[0, 0] - tensor[1, 1]) / (tensor[0, 0] + tensor[1, 1]))
 
@@ -90,7 +92,7 @@ def anisotropies(world: cairn.World) -> tuple[float, float, float, float]:
     stress = np.einsum("ci,cj->ij", force, ends[:, 0] - ends[:, 1])
     fabric = np.einsum("ci,cj->ij", n, n)
     a_c = 2 * deviator(fabric)
-    # Forces are averaged over directions, not over contacts: each weighs the less the more contacts share its direction.
+    # Forces are averaged over directions, not over contacts: the more contacts share a direction, the less each weighs.
     weight = 1 / (1 + a_c * (n[:, 0] ** 2 - n[:, 1] ** 2))
     normal_force = np.einsum("ci,ci->c", force, n)
     tangential = force - normal_force[:, None] * n
@@ -128,11 +130,11 @@ def look(run: cairn.SceneRun) -> None:
     if run.world.time > FALLEN:
         history.append((run.world.time, *anisotropies(run.world)))
     if abs(run.world.time - SETTLED) < 1e-6:
-        draw(run.world, *axes[0], "under its own weight")
+        draw(run.world, axes[0, 0], axes[0, 1], "under its own weight")
 
 
 result = cairn.run(scene, record="packing.h5", after_frame=look)
-draw(result.world, *axes[1], "walls pushed together")
+draw(result.world, axes[1, 0], axes[1, 1], "walls pushed together")
 fig.tight_layout()
 plt.show()
 

@@ -13,15 +13,17 @@ import os
 import cairn
 import matplotlib.pyplot as plt
 import numpy as np
+import numpy.typing as npt
 
 SHORT = "CAIRN_SHORT" in os.environ
+Floats = npt.NDArray[np.float64]
 G, GRAIN, DENSITY = 9.81, 0.1, 2500.0
 COUNT, WIDTH = (350, 9 * GRAIN) if SHORT else (1500, 12 * GRAIN)
 SETTLED, BELOW = 1.2, -1.5
 
 # %%
-# The floor of the shaft has a round hole: its parts are the convex pieces between the hole and a square. A lid closes it
-# until the grains have settled; an event of the scene takes the lid away.
+# The floor of the shaft has a round hole: its parts are the convex pieces between the hole and a square. A lid closes
+# it until the grains have settled; an event of the scene takes the lid away.
 
 
 def floor_with_hole(diameter: float) -> list[cairn.ConvexHull]:
@@ -67,8 +69,8 @@ def scene(hole: float) -> cairn.Scene:
 
 
 # %%
-# What has fallen out is taken away after each simulation step of 1/30 s: in the recording its position is no number from
-# then on.
+# What has fallen out is taken away after each simulation step of 1/30 s: in the recording its position is no number
+# from then on.
 GRAINS = slice(5 + 32, None)
 
 
@@ -79,20 +81,23 @@ def take_away(run: cairn.SceneRun) -> None:
             run.world.remove_body(id)
 
 
-def discharge(hole: float) -> tuple[cairn.Recording, np.ndarray]:
+def discharge(hole: float) -> tuple[cairn.Recording, Floats]:
     """The recording, and the masses of the grains [kg]."""
     result = cairn.run(scene(hole), record=f"hopper-{hole:g}.h5", after_frame=take_away)
     recording = result.recording
     assert recording is not None
     shapes = [body.shape for body in result.run.scene.bodies[GRAINS]]
-    masses = np.array([DENSITY * 4 / 3 * math.pi * shape.radius**3 for shape in shapes if isinstance(shape, cairn.Sphere)])
+    radii = np.array([shape.radius for shape in shapes if isinstance(shape, cairn.Sphere)])
+    masses = DENSITY * 4 / 3 * math.pi * radii**3
     return recording, masses
 
 
 # %%
 # The law wants the density of the filling: what is in a slab above the floor, just before the lid goes. The rate is the
 # slope between a tenth and a half of what is inside.
-def density_of_filling(recording: cairn.Recording, masses: np.ndarray) -> float:
+
+
+def density_of_filling(recording: cairn.Recording, masses: Floats) -> float:
     """[kg/m³]"""
     centre = recording[int(SETTLED * cairn.simulation_steps_per_second) - 1].position[GRAINS]
     # Walls keep the centres of grains away: the slab ends a grain from them.
@@ -120,12 +125,13 @@ left.legend()
 # %%
 # To the power of 2/5 the rates lie on a line that meets the axis at k and whose slope is that of C.
 slope, intercept = np.polyfit(holes, np.array(rates) ** 0.4, 1)
-print(f"C = {slope ** 2.5:.2f}, k = {-intercept / slope:.2f}, density of the filling {density:.0f} kg/m³")
 assert abs(np.array(rates) / (0.58 * (holes - 1.4) ** 2.5) - 1).max() < 0.3
+print(f"density of the filling {density:.0f} kg/m³")
 sizes = np.linspace(1.6, 7.4, 50)
 right.fill_between(sizes, 0.55**0.4 * (sizes - 1.6), 0.65**0.4 * (sizes - 1.2), color="0.85",
                    label="Beverloo: C = 0.55 to 0.65, k = 1.2 to 1.6")
-right.plot(sizes, slope * sizes + intercept, "-", color="0.4", label=f"C = {slope ** 2.5:.2f}, k = {-intercept / slope:.2f}")
+fitted = f"C = {slope ** 2.5:.2f}, k = {-intercept / slope:.2f}"
+right.plot(sizes, slope * sizes + intercept, "-", color="0.4", label=fitted)
 right.plot(holes, np.array(rates) ** 0.4, "o", color="0.1", label="simulated")
 right.set_xlabel("diameter of the hole D / d")
 right.set_ylabel("(W / (ρ √g d^(5/2)))^(2/5)")

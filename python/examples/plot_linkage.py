@@ -17,8 +17,8 @@ SHORT = "CAIRN_SHORT" in os.environ
 CRANK, ROD = 0.2, 0.5
 
 # %%
-# Bodies are joined where they stand: all in a line along x. Nothing collides in the mechanism, since joined bodies do not
-# touch each other.
+# Bodies are joined where they stand: all in a line along x. Nothing collides in the mechanism, since joined bodies do
+# not touch each other.
 y = [0, 1, 0]
 motor = cairn.JointMotor(speed=2 * math.pi, limit=1e4)
 scene = cairn.Scene(

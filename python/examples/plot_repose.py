@@ -3,8 +3,8 @@ The angle of repose
 ===================
 
 Grains that are poured onto a small round base leave a heap whose flank has the angle of repose. It grows with the
-friction between the grains, and more so where they also resist rolling; what rolls freely needs no friction to come down,
-so that friction alone soon makes no difference any more (Zhou and others, Physica A 269, 1999).
+friction between the grains, and more so where they also resist rolling: grains that roll freely come down by rolling,
+however rough they are (Zhou and others, Physica A 269, 1999).
 """
 
 import math
@@ -13,8 +13,10 @@ import os
 import cairn
 import matplotlib.pyplot as plt
 import numpy as np
+import numpy.typing as npt
 
 SHORT = "CAIRN_SHORT" in os.environ
+Floats = npt.NDArray[np.float64]
 G, GRAIN = 9.81, 0.1
 BASE = 5 * GRAIN
 COUNT, DURATION = (96, 1.5) if SHORT else (500, 6.0)
@@ -56,13 +58,13 @@ def take_away(run: cairn.SceneRun) -> None:
 RADII = np.linspace(0.05, 1, 20) * BASE
 
 
-def surface(world: cairn.World) -> np.ndarray:
+def surface(world: cairn.World) -> Floats:
     """Height over the distance from the axis, shape of RADII [m]."""
     rays = [cairn.Ray([r * math.cos(angle), r * math.sin(angle), 5], [0, 0, -1])
             for r in RADII for angle in np.linspace(0, 2 * math.pi, 36, endpoint=False)]
     hits = world.cast_rays(rays)
     heights = [0 if hit is None else max(hit.point[2], 0) for hit in hits]
-    mean: np.ndarray = np.mean(np.reshape(heights, (len(RADII), 36)), axis=1)
+    mean: Floats = np.mean(np.reshape(heights, (len(RADII), 36)), axis=1)
     return mean
 
 
@@ -78,7 +80,8 @@ for rolling, style in ((0.0, "o--"), (0.2, "s-")):
         slope, _ = np.polyfit(RADII[FLANK], height[FLANK], 1)
         angles[rolling].append(math.degrees(math.atan(-slope)))
         if friction in (frictions[0], frictions[-1]):
-            left.plot(RADII / GRAIN, height / GRAIN, style, markersize=4, color="0.6" if friction == frictions[0] else "0.1",
+            left.plot(RADII / GRAIN, height / GRAIN, style, markersize=4,
+                      color="0.6" if friction == frictions[0] else "0.1",
                       label=f"µ = {friction}, rolling friction {rolling} r")
     right.plot(frictions, angles[rolling], style, color="0.2", label=f"rolling friction {rolling} r")
 left.set_xlabel("distance from the axis [grains]")

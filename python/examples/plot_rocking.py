@@ -13,8 +13,10 @@ import os
 import cairn
 import matplotlib.pyplot as plt
 import numpy as np
+import numpy.typing as npt
 
 SHORT = "CAIRN_SHORT" in os.environ
+Floats = npt.NDArray[np.float64]
 G = 9.81
 
 # A block of half width b and half height h turns about its edges, at the distance R from its centre of mass. At the
@@ -29,9 +31,9 @@ def rate(h: float) -> float:
     return math.sqrt(3 * G / (4 * math.hypot(SLENDERNESS * h, h)))
 
 
-def tilts(orientations: np.ndarray) -> np.ndarray:
+def tilts(orientations: Floats) -> Floats:
     """About y, of quaternions (w, x, y, z) [rad]."""
-    angles: np.ndarray = 2 * np.arctan2(orientations[..., 2], orientations[..., 0])
+    angles: Floats = 2.0 * np.arctan2(orientations[..., 2], orientations[..., 0])
     return angles
 
 
@@ -99,7 +101,7 @@ def table(pulse: float, acceleration: float) -> cairn.SceneBody:
     """pulse: its length [s], acceleration: along x [m/s²]"""
     reach, speed = 100.0, acceleration * pulse
     ways = [[x, 0, 0] for x in (0, speed * pulse / 2, speed * (reach - pulse / 2))]
-    motion = cairn.TableMotion([0, pulse, reach], ways, velocities=[[0, 0, 0], [speed, 0, 0], [speed, 0, 0]])
+    motion = cairn.TableMotion([0, pulse, reach], ways, velocities=[[v, 0, 0] for v in (0, speed, speed)])
     return cairn.SceneBody(cairn.Box([3, 3, 0.1]), "stone", position=[0, 0, -0.05], fixed=True, motion=motion)
 
 
@@ -139,9 +141,9 @@ three = [block(h, y) for h, y in ((0.2, -0.6), (0.4, 0), (0.8, 0.7))]
 result = cairn.run(scene(three, table(pulse, acceleration), 3), record="rocking.h5")
 recording = result.recording
 assert recording is not None
-for i, style in ((1, ":"), (2, "--"), (3, "-")):
-    tilt_over_time = np.abs(tilts(recording.orientation[:, i])) / ALPHA
-    left.plot(recording.time[:], np.minimum(tilt_over_time, 3), style, color="0.2", label=f"height {(0.4, 0.8, 1.6)[i - 1]} m")
+for i, height, style in ((1, 0.4, ":"), (2, 0.8, "--"), (3, 1.6, "-")):
+    over_time = np.minimum(np.abs(tilts(recording.orientation[:, i])) / ALPHA, 3)
+    left.plot(recording.time[:], over_time, style, color="0.2", label=f"height {height} m")
 left.set_xlabel("time [s]")
 left.set_ylabel("tilt / α")
 left.legend()

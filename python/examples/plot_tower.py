@@ -2,8 +2,8 @@
 A tower of 40 boxes
 ===================
 
-Boxes upon boxes are hard for solvers by impulses, since every contact has to bear all that is above it. The tower stands
-also when nobody may sleep; what its lowest contacts bear is the weight above them.
+Boxes upon boxes are hard for solvers by impulses, since every contact has to bear all that is above it. The tower
+stands also when nobody may sleep; what its lowest contacts bear is the weight above them.
 """
 
 import os

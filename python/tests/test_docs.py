@@ -28,8 +28,8 @@ def test_the_first_example_runs(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 EXAMPLES = sorted((ROOT / "python" / "examples").glob("plot_*.py"))
-SUBJECTS = {"arch", "bounce", "cradle", "dominoes", "force_chains", "friction", "hopper", "linkage", "repose", "rocking",
-            "rollback", "tower"}
+SUBJECTS = {"arch", "bounce", "cradle", "dominoes", "force_chains", "friction", "hopper", "linkage", "repose",
+            "rocking", "rollback", "tower"}
 
 
 def run_as_a_notebook(file: Path) -> object:
