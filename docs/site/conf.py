@@ -12,6 +12,7 @@ extensions = ["myst_parser", "sphinx.ext.autodoc", "breathe", "sphinx_gallery.ge
 html_theme = "furo"
 html_title = "Cairn"
 html_show_sphinx = False
+html_show_copyright = False
 html_copy_source = False
 
 root_doc = "README"

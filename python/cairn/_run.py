@@ -38,7 +38,7 @@ class Result:
         scene, world = self.run.scene, self.world
         text = (f"{scene.name}: {world.time:.6g} s of {world.body_count} bodies in {self.seconds:.3g} s, "
                 f"{self.statistics.asleep} asleep, largest overlap {1e3 * self.statistics.largest_overlap:.3g} mm")
-        return text + (f", recorded in {self.recording.file}" if self.recording else "")
+        return text + (f", recorded in {self.recording.file.name}" if self.recording else "")
 
     def _repr_html_(self) -> str:
         return f"<p>{self!r}</p>" + (self.recording._repr_html_() if self.recording else "")

@@ -106,6 +106,8 @@ def density_of_filling(recording: cairn.Recording, masses: Floats) -> float:
     return float(masses[inside].sum() / ((2 * half) ** 2 * 3 * GRAIN))
 
 
+# %%
+# The widths of the holes are in grains, the rates W / (ρ √(g d⁵)).
 fig, (left, right) = plt.subplots(1, 2, figsize=(9, 4))
 holes = np.array([5, 6] if SHORT else [4, 5, 6, 7])
 rates = []
@@ -121,9 +123,7 @@ left.set_xlabel("time since the lid is gone [s]")
 left.set_ylabel("mass that has left [kg]")
 left.set_xlim(left=0)
 left.legend()
-
-# %%
-# To the power of 2/5 the rates lie on a line that meets the axis at k and whose slope is that of C.
+# To the power of 2/5 the rates lie on a line that meets the axis at k, and its slope tells C.
 slope, intercept = np.polyfit(holes, np.array(rates) ** 0.4, 1)
 assert abs(np.array(rates) / (0.58 * (holes - 1.4) ** 2.5) - 1).max() < 0.3
 print(f"density of the filling {density:.0f} kg/m³")
@@ -134,7 +134,7 @@ fitted = f"C = {slope ** 2.5:.2f}, k = {-intercept / slope:.2f}"
 right.plot(sizes, slope * sizes + intercept, "-", color="0.4", label=fitted)
 right.plot(holes, np.array(rates) ** 0.4, "o", color="0.1", label="simulated")
 right.set_xlabel("diameter of the hole D / d")
-right.set_ylabel("(W / (ρ √g d^(5/2)))^(2/5)")
+right.set_ylabel("(W / (ρ √(g d⁵)))^(2/5)")
 right.legend(loc="lower right")
 fig.tight_layout()
 plt.show()

@@ -115,8 +115,23 @@ def falls(h: float, pulse: float, acceleration: float) -> bool:
     return tilt <= -2 * ALPHA
 
 
-heights, pulses = ([0.4], [0.3]) if SHORT else ([0.2, 0.4, 0.8], [0.1, 0.2, 0.3, 0.45, 0.6])
+# %%
+# Left, three blocks of the same proportions on the same table: the pulse throws two of them over. Right, the least
+# acceleration that throws a block over, found by halving, for each length of the pulse.
 fig, (left, right) = plt.subplots(1, 2, figsize=(9, 4))
+pulse, acceleration = 0.3, 1.5 * G * ALPHA
+three = [block(h, y) for h, y in ((0.2, -0.6), (0.4, 0), (0.8, 0.7))]
+result = cairn.run(scene(three, table(pulse, acceleration), 3), record="rocking.h5")
+recording = result.recording
+assert recording is not None
+for i, height, style in ((1, 0.4, ":"), (2, 0.8, "--"), (3, 1.6, "-")):
+    over_time = np.minimum(np.abs(tilts(recording.orientation[:, i])) / ALPHA, 3)
+    left.plot(recording.time[:], over_time, style, color="0.2", label=f"height {height} m")
+left.set_xlabel("time [s]")
+left.set_ylabel("tilt / α")
+left.legend()
+
+heights, pulses = ([0.4], [0.3]) if SHORT else ([0.2, 0.4, 0.8], [0.1, 0.2, 0.3, 0.45, 0.6])
 time = np.linspace(0.08, 0.65)
 for h, style, marker in zip(heights, (":", "--", "-"), "o^s"):
     right.plot(time, 1 / (1 - np.exp(-rate(h) * time)), style, color="0.5", label=f"Housner, height {2 * h:.1f} m")
@@ -133,20 +148,6 @@ for h, style, marker in zip(heights, (":", "--", "-"), "o^s"):
 right.set_xlabel("length of the pulse [s]")
 right.set_ylabel("least acceleration that throws over / (g α)")
 right.legend(fontsize=8)
-
-# %%
-# Three blocks of the same proportions on the same table: the pulse throws two of them over.
-pulse, acceleration = 0.3, 1.5 * G * ALPHA
-three = [block(h, y) for h, y in ((0.2, -0.6), (0.4, 0), (0.8, 0.7))]
-result = cairn.run(scene(three, table(pulse, acceleration), 3), record="rocking.h5")
-recording = result.recording
-assert recording is not None
-for i, height, style in ((1, 0.4, ":"), (2, 0.8, "--"), (3, 1.6, "-")):
-    over_time = np.minimum(np.abs(tilts(recording.orientation[:, i])) / ALPHA, 3)
-    left.plot(recording.time[:], over_time, style, color="0.2", label=f"height {height} m")
-left.set_xlabel("time [s]")
-left.set_ylabel("tilt / α")
-left.legend()
 fig.tight_layout()
 plt.show()
 
