@@ -73,10 +73,10 @@ wheel:
 	tools/make_wheel
 
 site:
-	@tools/install_packages build python site
+	@tools/install_packages build companions python site
 	@$(CONFIGURE)
-	@$(BUILD) cairn_python
-	@PYTHONPATH=build/release/python tools/make_site
+	@$(BUILD) cairn_python cairn_cli cairn-view
+	@PYTHONPATH=$(CURDIR)/build/release/python CAIRN_PROGRAM=$(CURDIR)/build/release/cairn tools/make_site
 
 golden:
 	@tools/install_packages build check
@@ -85,7 +85,7 @@ golden:
 	@build/release/tests/golden/golden tests/golden/hashes.json $(if $(UPDATE),--update)
 
 sanitize:
-	@tools/install_packages build check develop
+	@tools/install_packages build check develop python
 	@tools/sanitize asan-ubsan
 	@tools/sanitize tsan
 

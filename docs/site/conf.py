@@ -1,6 +1,7 @@
 """The site: what tools/make_site has gathered, with the references of C++ and Python and the gallery."""
 
 import os
+import re
 from pathlib import Path
 
 BUILT = Path(os.environ["CAIRN_SITE"])
@@ -11,6 +12,7 @@ extensions = ["myst_parser", "sphinx.ext.autodoc", "breathe", "sphinx_gallery.ge
 html_theme = "furo"
 html_title = "Cairn"
 html_show_sphinx = False
+html_show_copyright = False
 html_copy_source = False
 
 root_doc = "README"
@@ -22,7 +24,24 @@ breathe_default_project = "cairn"
 
 autodoc_member_order = "bysource"
 
+# The gallery begins with what is easy; an example that is not named here comes last.
+GALLERY = ("bounce", "tower", "dominoes", "arch", "cradle", "linkage", "rocking", "repose", "hopper", "force_chains",
+           "rollback", "friction")
+
+
+class GalleryOrder:
+    """Of the files of examples."""
+
+    def __init__(self, _folder):
+        pass
+
+    def __call__(self, file):
+        name = Path(file).stem[len("plot_"):]
+        return GALLERY.index(name) if name in GALLERY else len(GALLERY)
+
+
 sphinx_gallery_conf = {
+    "within_subsection_order": GalleryOrder,
     "examples_dirs": str(BUILT / "source" / "examples_of_python"),
     "gallery_dirs": "gallery",
     "filename_pattern": r"plot_.*\.py",
@@ -33,3 +52,14 @@ sphinx_gallery_conf = {
 
 # Headers declare what others define, and pages may begin below the first level.
 suppress_warnings = ["myst.header", "cpp.duplicate_declaration"]
+
+OVERLOAD = re.compile(r"\d+\. \w+\(|\w+\(\*args, \*\*kwargs\)$|Overloaded function\.$")
+
+
+def leave_out_overloads(_app, _what, _name, _object, _options, lines):
+    """The lines of signatures that pybind11 writes among the texts of overloads are no prose."""
+    lines[:] = [line for line in lines if not OVERLOAD.match(line)]
+
+
+def setup(app):
+    app.connect("autodoc-process-docstring", leave_out_overloads)

@@ -67,7 +67,8 @@ class Recording:
     """
 
     def __init__(self, file: FilePath) -> None:
-        self.file = Path(file)
+        # The program that makes replays may be started from another folder.
+        self.file = Path(file).absolute()
         self._reader = _core.RecordingReader(file)
         frames, bodies = self._reader.info.frames, self._reader.info.bodies
         self.time = Series(self, "time", (frames,), np.float64)

@@ -4,6 +4,7 @@ import math
 import time
 from dataclasses import dataclass, field
 from os import fspath
+from pathlib import Path
 from typing import Callable, Mapping, Optional, Union
 
 from . import _core
@@ -37,7 +38,7 @@ class Result:
         scene, world = self.run.scene, self.world
         text = (f"{scene.name}: {world.time:.6g} s of {world.body_count} bodies in {self.seconds:.3g} s, "
                 f"{self.statistics.asleep} asleep, largest overlap {1e3 * self.statistics.largest_overlap:.3g} mm")
-        return text + (f", recorded in {self.recording.file}" if self.recording else "")
+        return text + (f", recorded in {self.recording.file.name}" if self.recording else "")
 
     def _repr_html_(self) -> str:
         return f"<p>{self!r}</p>" + (self.recording._repr_html_() if self.recording else "")
@@ -85,6 +86,8 @@ def run(
     frames = max(math.ceil(scene_run.scene.duration * _core.simulation_steps_per_second - 1e-6), 1)
     writer: Optional[_core.RecordingWriter] = None
     if record is not None:
+        # A recording of that name which is still looked at, as where a cell of a notebook runs again, stays readable.
+        Path(record).unlink(missing_ok=True)
         per_frame = scene_run.steps_per_simulation_step if hashes else 0
         writer = _core.RecordingWriter(record, scene_run.scene, chosen, per_frame)
         writer.append(_core.capture_frame(scene_run))

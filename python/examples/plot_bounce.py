@@ -1,6 +1,6 @@
 """
-A ball that bounces
-===================
+Hello, ball
+===========
 
 A ball falls from one metre. After each bounce it rises to the square of the coefficient of restitution times the height
 that it fell from; the time between two bounces shrinks by the coefficient itself.
@@ -13,28 +13,39 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 SHORT = "CAIRN_SHORT" in os.environ
+RADIUS, HEIGHT, G = 0.05, 1.0, 9.81
 
 # %%
 # The preset for accuracy, with bodies that follow the parabola exactly and no damping of gravity, so that what is left
 # is the law of the impact.
-settings = cairn.Settings.preset("accuracy", gravity=9.81).replace(
-    exact_flight=True, restitution_speed="touching", correction_rounds=1, damping=0, sleeping=False
-)
 
 
-def heights(restitution: float, duration: float) -> tuple[list[float], list[float]]:
+def scene(restitution: float) -> cairn.Scene:
+    """A ball above the ground."""
+    return cairn.Scene(
+        "bounce",
+        duration=1 if SHORT else 3,
+        gravity=[0, 0, -G],
+        materials=[cairn.Material("rubber", 1100)],
+        default_pair=cairn.PairProperties(restitution=restitution),
+        bodies=[
+            cairn.SceneBody(cairn.HalfSpace(), "rubber", fixed=True),
+            cairn.SceneBody(cairn.Sphere(RADIUS), "rubber", position=[0, 0, RADIUS + HEIGHT]),
+        ],
+        preset="accuracy",
+        settings={"exact_flight": True, "restitution_speed": "touching", "correction_rounds": 1, "damping": 0,
+                  "sleeping": False},
+    )
+
+
+def heights(restitution: float) -> tuple[list[float], list[float]]:
     """Of the lowest point over time [s], [m]."""
-    world = cairn.World(settings)
-    world.gravity = 0, 0, -9.81
-    rubber = world.add_material("rubber", 1100)
-    world.set_default_pair_properties(restitution=restitution)
-    world.add_body(cairn.HalfSpace(), rubber, fixed=True)
-    ball = world.add_body(cairn.Sphere(0.05), rubber, position=[0, 0, 1.05])
+    run = cairn.SceneRun(scene(restitution))
     times, z = [], []
-    while world.time < duration:
-        world.step(4)
-        times.append(world.time)
-        z.append(float(world.bodies.centre_of_mass[ball.index, 2]) - 0.05)
+    while run.world.time < run.scene.duration:
+        run.step(4)
+        times.append(run.world.time)
+        z.append(float(run.world.bodies.centre_of_mass[1, 2]) - RADIUS)
     return times, z
 
 
@@ -42,11 +53,11 @@ def heights(restitution: float, duration: float) -> tuple[list[float], list[floa
 # The dashed lines are the heights that the closed form predicts.
 fig, axes = plt.subplots(figsize=(7, 4))
 for restitution, style in ((0.9, "-"), (0.7, "-.")):
-    times, z = heights(restitution, 1 if SHORT else 3)
+    times, z = heights(restitution)
     axes.plot(times, z, style, label=f"coefficient of restitution {restitution}")
-    peaks = np.array([restitution ** (2 * n) for n in range(1, 4)])
+    peaks = np.array([HEIGHT * restitution ** (2 * n) for n in range(1, 4)])
     # Sampled every 4 steps of 1/960 s, a peak is missed by less than 0.1 mm.
-    fall = np.sqrt(2 / 9.81)
+    fall = np.sqrt(2 * HEIGHT / G)
     ends = fall * (1 + 2 * np.cumsum([restitution**n for n in range(1, 4)]))
     for n, peak in enumerate(peaks):
         if ends[n] < times[-1]:
@@ -59,3 +70,7 @@ axes.set_ylabel("height above the ground [m]")
 axes.legend()
 fig.tight_layout()
 plt.show()
+
+# %%
+# The run with 0.9 again, recorded. At the end of a cell, what it came to shows itself with its replay.
+cairn.run(scene(0.9), record="bounce.h5")

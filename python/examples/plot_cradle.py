@@ -14,37 +14,38 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 SHORT = "CAIRN_SHORT" in os.environ
-
-settings = cairn.Settings.preset("accuracy", gravity=9.81).replace(
-    impacts="sequential", exact_flight=True, damping=0, sleeping=False
-)
-world = cairn.World(settings)
-world.gravity = 0, 0, -9.81
-steel = world.add_material("steel", 7800)
-world.set_default_pair_properties(restitution=1, static_friction=0, kinetic_friction=0)
+G, RADIUS, LENGTH, TILT = 9.81, 0.02, 0.3, math.radians(40)
 
 # %%
 # Each ball hangs on a rod without mass; the first one is raised by 40 degrees.
-RADIUS, LENGTH = 0.02, 0.3
-balls = []
-for i in range(5):
-    tilt = math.radians(40) if i == 0 else 0
-    top = np.array([2 * RADIUS * i, 0, 0])
-    centre = top - LENGTH * np.array([math.sin(tilt), 0, math.cos(tilt)])
-    ball = world.add_body(cairn.Sphere(RADIUS), steel, position=centre)
-    world.add_joint("distance", ball, anchor=centre, anchor_b=top)
-    balls.append(ball.index)
+tops = [np.array([2 * RADIUS * i, 0, 0]) for i in range(5)]
+centres = [top - [0, 0, LENGTH] for top in tops]
+centres[0] = tops[0] - LENGTH * np.array([math.sin(TILT), 0, math.cos(TILT)])
+scene = cairn.Scene(
+    "cradle",
+    duration=1.5 if SHORT else 4,
+    gravity=[0, 0, -G],
+    materials=[cairn.Material("steel", 7800)],
+    default_pair=cairn.PairProperties(restitution=1, static_friction=0, kinetic_friction=0),
+    bodies=[cairn.SceneBody(cairn.Sphere(RADIUS), "steel", position=centre) for centre in centres],
+    joints=[cairn.SceneJoint(i, None, cairn.JointDescription("distance", anchor=centres[i], anchor_b=tops[i]))
+            for i in range(5)],
+    preset="accuracy",
+    settings={"impacts": "sequential", "exact_flight": True, "damping": 0, "sleeping": False},
+)
 
 times, places, energies = [], [], []
-while world.time < (1.5 if SHORT else 4):
-    world.step(4)
+run = cairn.SceneRun(scene)
+world = run.world
+while world.time < scene.duration:
+    run.step(4)
     times.append(world.time)
-    places.append(world.bodies.centre_of_mass[balls, 0].copy())
+    places.append(world.bodies.centre_of_mass[:, 0].copy())
     energies.append(world.kinetic_energy() + world.potential_energy())
 
 # %%
 # The energy is that of the beginning to a part in a thousand of what the first ball had.
-lifted = world.mass(cairn.BodyId(balls[0], 0)) * 9.81 * LENGTH * (1 - math.cos(math.radians(40)))
+lifted = world.bodies.mass[0] * G * LENGTH * (1 - math.cos(TILT))
 change = (np.array(energies) - energies[0]) / lifted
 assert abs(change).max() < 1e-3
 
@@ -58,3 +59,7 @@ lower.set_xlabel("time [s]")
 lower.set_ylabel("change of energy\n[10⁻⁶ of that put in]")
 fig.tight_layout()
 plt.show()
+
+# %%
+# The same, recorded.
+cairn.run(scene, record="cradle.h5")

@@ -17,29 +17,33 @@ G = 9.81
 THICKNESS, WIDTH, HEIGHT = 0.03, 0.1, 0.2
 COUNT = 12 if SHORT else 30
 
-settings = cairn.Settings.preset("accuracy", gravity=G)
+
+def scene(gap: float) -> cairn.Scene:
+    """A row of dominoes, so far apart [m], of which the first one turns about its lower edge."""
+    spin = 2.5
+    push = {"linear_velocity": [spin * HEIGHT / 2, 0, spin * THICKNESS / 2], "angular_velocity": [0, spin, 0]}
+    domino = cairn.SceneBody(cairn.Box([THICKNESS, WIDTH, HEIGHT]), "wood")
+    row = [domino.replace(position=[i * (THICKNESS + gap), 0, HEIGHT / 2]) for i in range(COUNT)]
+    return cairn.Scene(
+        "dominoes",
+        duration=1 if SHORT else 3,
+        gravity=[0, 0, -G],
+        materials=[cairn.Material("wood", 700)],
+        default_pair=cairn.PairProperties(restitution=0, static_friction=0.3, kinetic_friction=0.3),
+        bodies=[cairn.SceneBody(cairn.HalfSpace(), "wood", fixed=True), row[0].replace(**push), *row[1:]],
+        preset="accuracy",
+    )
 
 
 def fall(gap: float) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
     """When each domino has tilted by a tenth of a radian [s]."""
-    world = cairn.World(settings)
-    world.gravity = 0, 0, -G
-    wood = world.add_material("wood", 700)
-    world.set_default_pair_properties(restitution=0, static_friction=0.3, kinetic_friction=0.3)
-    world.add_body(cairn.HalfSpace(), wood, fixed=True)
-    for i in range(COUNT):
-        world.add_body(cairn.Box([THICKNESS, WIDTH, HEIGHT]), wood, position=[i * (THICKNESS + gap), 0, HEIGHT / 2])
-    # The first one turns about its lower edge.
-    first, spin = cairn.BodyId(1, 0), 2.5
-    world.set_angular_velocity(first, [0, spin, 0])
-    world.set_linear_velocity(first, [spin * HEIGHT / 2, 0, spin * THICKNESS / 2])
-
+    run = cairn.SceneRun(scene(gap))
     fallen = np.full(COUNT, np.nan)
-    while np.isnan(fallen[-1]) and world.time < 5:
-        world.step(4)
-        _, orientations = world.bodies.poses()
+    while np.isnan(fallen[-1]) and run.world.time < 5:
+        run.step(4)
+        _, orientations = run.world.bodies.poses()
         tilt = 2 * np.abs(np.arctan2(orientations[1:, 2], orientations[1:, 0]))
-        fallen[(tilt > 0.1) & np.isnan(fallen)] = world.time
+        fallen[(tilt > 0.1) & np.isnan(fallen)] = run.world.time
     return fallen
 
 
@@ -63,3 +67,7 @@ right.set_ylabel("speed / √(g height)")
 right.set_ylim(0, 2)
 fig.tight_layout()
 plt.show()
+
+# %%
+# One of the rows, as it falls.
+cairn.run(scene(0.05), record="dominoes.h5")

@@ -14,20 +14,33 @@ import numpy as np
 
 SHORT = "CAIRN_SHORT" in os.environ
 G = 9.81
-settings = cairn.Settings.preset("accuracy", gravity=G).replace(damping=0)
+FRICTIONS = [0.1, 0.2, 0.4, 0.8]
 
 # %%
 # One function makes a world of the parameters, another one measures it.
 
 
+def scene(frictions: list[float], speed: float) -> cairn.Scene:
+    """Boxes that slide side by side, each with a friction of its own. speed: [m/s]"""
+    oak = [f"oak {friction}" for friction in frictions]
+    return cairn.Scene(
+        "sliding",
+        duration=1 if SHORT else 2.5,
+        gravity=[0, 0, -G],
+        materials=[cairn.Material("ground", 2000), *(cairn.Material(name, 800) for name in oak)],
+        pairs={("ground", name): cairn.PairProperties(0, friction, friction) for name, friction in zip(oak, frictions)},
+        bodies=[
+            cairn.SceneBody(cairn.HalfSpace(), "ground", fixed=True),
+            *(cairn.SceneBody(cairn.Box([0.4, 0.4, 0.05]), name, position=[0, 0.6 * i, 0.025],
+                              linear_velocity=[speed, 0, 0]) for i, name in enumerate(oak)),
+        ],
+        preset="accuracy",
+        settings={"damping": 0},
+    )
+
+
 def make(friction: float, speed: float) -> cairn.World:
-    world = cairn.World(settings)
-    world.gravity = 0, 0, -G
-    oak = world.add_material("oak", 800)
-    world.set_default_pair_properties(restitution=0, static_friction=friction, kinetic_friction=friction)
-    world.add_body(cairn.HalfSpace(), oak, fixed=True)
-    world.add_body(cairn.Box([0.4, 0.4, 0.05]), oak, position=[0, 0, 0.025], linear_velocity=[speed, 0, 0])
-    return world
+    return cairn.SceneRun(scene([friction], speed)).world
 
 
 def distance(world: cairn.World) -> dict[str, float]:
@@ -37,7 +50,7 @@ def distance(world: cairn.World) -> dict[str, float]:
 
 
 speeds = [1.0, 2.0] if SHORT else [1.0, 2.0, 3.0]
-table = cairn.sweep(make, {"speed": speeds, "friction": [0.1, 0.2, 0.4, 0.8]}, distance)
+table = cairn.sweep(make, {"speed": speeds, "friction": FRICTIONS}, distance)
 print(table)
 
 # %%
@@ -55,3 +68,7 @@ axes.set_ylabel("distance [m]")
 axes.legend(title="simulated")
 fig.tight_layout()
 plt.show()
+
+# %%
+# The four boxes at 2 m/s, side by side.
+cairn.run(scene(FRICTIONS, 2), record="friction.h5")

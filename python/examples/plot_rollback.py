@@ -59,3 +59,7 @@ axes.set_ylabel("difference of the ball's place [m]")
 axes.legend()
 fig.tight_layout()
 plt.show()
+
+# %%
+# What was played twice.
+cairn.run("stacks5", duration=1 if SHORT else 2.5, record="rollback.h5")

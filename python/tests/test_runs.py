@@ -117,6 +117,15 @@ def test_runs_are_kept_and_go_on(tmp_path: Path) -> None:
     assert statistics.contacts > 0 and len(run.ids) == 7
 
 
+def test_a_run_can_be_recorded_anew_while_its_recording_is_looked_at(tmp_path: Path) -> None:
+    first = cairn.run("tower:2", duration=0.2, record=tmp_path / "run.h5").recording
+    assert first is not None
+    second = cairn.run("tower:3", duration=0.1, record=tmp_path / "run.h5").recording
+    assert second is not None
+    assert (len(first), len(second)) == (7, 4)
+    assert first.position[:].shape == (7, 3, 3) and second.position[:].shape == (4, 4, 3)
+
+
 def test_a_replay_is_made_by_the_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     recording = cairn.run("tower:2", duration=0.1, record=tmp_path / "run.h5").recording
     assert recording is not None
