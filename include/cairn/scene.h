@@ -61,9 +61,11 @@ struct SceneFilters {
 
 /// A joint of a scene.
 struct SceneJoint {
-    std::size_t a = 0;             ///< index in Scene::bodies
-    std::optional<std::size_t> b;  ///< index in Scene::bodies; none = the world
-    JointDescription joint;        ///< all else, as the bodies stand at the beginning
+    std::size_t a = 0;                    ///< index in Scene::bodies
+    std::optional<std::size_t> b;         ///< index in Scene::bodies; none = the world
+    JointDescription joint;               ///< all else, as the bodies stand at the beginning
+    std::optional<std::size_t> first{};   ///< of gears, racks and mimics: index of an earlier one in Scene::joints
+    std::optional<std::size_t> second{};  ///< likewise
 };
 
 /// A spring of a scene.

@@ -262,10 +262,15 @@ class World {
     bool contains(JointId id) const noexcept;
     std::vector<JointId> joints() const;  ///< all of them, in ascending order of index
     JointInfo joint(JointId id) const;    ///< @throws StaleIdError
-    /// Of hinges and sliders; a limit of 0 switches the motor off. Wakes the bodies. @throws as addJoint
+    /// Of hinges, sliders and screws; a limit of 0 switches the motor off. Wakes the bodies. @throws as addJoint
     void setJointMotor(JointId id, const JointMotor& motor);
-    /// Of hinges [rad, −π to π] and sliders [m]. Wakes the bodies. @throws as addJoint
+    /// Of hinges and screws [rad] and sliders [m]. Wakes the bodies. @throws as addJoint
     void setJointLimits(JointId id, std::optional<double> lower, std::optional<double> upper);
+    /// Of hinges, sliders and screws: what it drives to from now on. Wakes the bodies. @throws as addJoint
+    void setJointServo(JointId id, const JointServo& servo);
+    /// All that acts along a free axis from now on. Wakes the bodies. @param index of the axis, as in
+    /// JointInfo::positions @throws as addJoint
+    void setJointAxis(JointId id, std::size_t index, const JointAxis& axis);
 
     // --- global accelerations; a change wakes every body ---
     /// @param gravity [m/s², W] @throws InputError if not finite or contradicting the settings (3.2.5)

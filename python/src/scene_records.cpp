@@ -70,6 +70,8 @@ void bindSceneBodies(py::module_& module) {
         .field("a", &SceneJoint::a, "Index in Scene.bodies.")
         .field("b", &SceneJoint::b, "Index in Scene.bodies; None = the world.")
         .field("joint", &SceneJoint::joint, "All else, as the bodies stand at the beginning.")
+        .field("first", &SceneJoint::first, "Of gears, racks and mimics: index of an earlier one in Scene.joints.")
+        .field("second", &SceneJoint::second, "Likewise: the joint that follows it.")
         .finish(3);
     using S = SceneSpring;
     Record<S>(module, "SceneSpring", "A spring of a scene.")

@@ -88,9 +88,19 @@ void bindTies(WorldClass& world) {
             [](const PyWorld& self, JointId id, const py::args& args, const py::kwargs& kwargs) {
                 self.use().setJointMotor(id, recordFrom<JointMotor>(args, kwargs));
             },
-            py::arg("id"), "Of hinges and sliders; a limit of 0 switches it off. Raises InputError, StaleIdError.")
+            py::arg("id"),
+            "Of hinges, sliders and screws; a limit of 0 switches it off. Raises InputError, StaleIdError.")
         .def("set_joint_limits", on(&World::setJointLimits), py::arg("id"), py::arg("lower"), py::arg("upper"),
-             "Of hinges [rad, -π to π] and sliders [m]. Raises InputError, StaleIdError.")
+             "Of hinges and screws [rad] and sliders [m]. Raises InputError, StaleIdError.")
+        .def(
+            "set_joint_servo",
+            [](const PyWorld& self, JointId id, const py::args& args, const py::kwargs& kwargs) {
+                self.use().setJointServo(id, recordFrom<JointServo>(args, kwargs));
+            },
+            py::arg("id"),
+            "Of hinges, sliders and screws: what it drives to from now on. Raises InputError, StaleIdError.")
+        .def("set_joint_axis", on(&World::setJointAxis), py::arg("id"), py::arg("index"), py::arg("axis"),
+             "All that acts along a free axis from now on. Raises InputError, StaleIdError.")
         .def("__contains__", [](const PyWorld& self, BodyId id) { return self.use().contains(id); })
         .def("__contains__", [](const PyWorld& self, JointId id) { return self.use().contains(id); });
 }

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -47,6 +48,7 @@ class JsonNode {
 
     // Each throws InputError if the value is of another type or out of the named range.
     void expectKeys(std::initializer_list<std::string_view> allowed) const;
+    void expectKeys(std::span<const std::string_view> allowed) const;
     void expectArray(std::string_view allowed) const;
     double number() const;
     double positive() const;

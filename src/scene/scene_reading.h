@@ -5,7 +5,6 @@
 #include <string>
 
 #include "cairn/scene.h"
-#include "scene/joint_names.h"
 #include "scene/json_node.h"
 
 namespace cairn {

@@ -139,11 +139,20 @@ void addSpring(const SceneSpring& spring, const std::vector<BodyId>& ids, World&
     world.addSpring(description);
 }
 
-void addJoint(const SceneJoint& joint, const std::vector<BodyId>& ids, World& world) {
+/// @param before ids of the joints that stand before it in the scene
+JointId addJoint(const SceneJoint& joint, const std::vector<BodyId>& ids, const std::vector<JointId>& before,
+                 World& world) {
     JointDescription description = joint.joint;
+    const auto coupled = [&](const std::optional<std::size_t>& index) {
+        if (*index < before.size()) return before[*index];
+        throw InputError(fmt::format("joint {} does not stand before this one", *index));
+    };
+    if (joint.first) description.first = coupled(joint.first);
+    if (joint.second) description.second = coupled(joint.second);
+    if (joint.first || joint.second) return world.addJoint(description);
     description.a = bodyId(ids, joint.a);
     description.b = joint.b ? std::optional(bodyId(ids, *joint.b)) : std::nullopt;
-    world.addJoint(description);
+    return world.addJoint(description);
 }
 
 /// True if the action is for a body that is no longer in the world.
@@ -202,8 +211,10 @@ SceneRun::SceneRun(const Scene& scene, const Settings& settings) : scene_(scene)
     for (std::size_t i = 0; i < scene_.springs.size(); ++i) {
         inContext(fmt::format("spring {}", i), [&] { addSpring(scene_.springs[i], ids_, world_); });
     }
+    std::vector<JointId> joints;
     for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-        inContext(fmt::format("joint {}", i), [&] { addJoint(scene_.joints[i], ids_, world_); });
+        inContext(fmt::format("joint {}", i),
+                  [&] { joints.push_back(addJoint(scene_.joints[i], ids_, joints, world_)); });
     }
 }
 

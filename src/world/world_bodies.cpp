@@ -6,6 +6,7 @@
 #include "cairn/world.h"
 #include "geometry/body_mass.h"
 #include "sleeping/sleeping.h"
+#include "world/couplings.h"
 #include "world/limits.h"
 #include "world/motions.h"
 #include "world/quarantine.h"
@@ -179,6 +180,7 @@ void World::removeBody(BodyId id) {
     w.ties.list(w.springs, w.joints, w.bodies.slots());
     for (const std::uint32_t slot : w.ties.springsOf(i)) removeTie(w.springs[slot], i, w.bodies.state());
     for (const std::uint32_t slot : w.ties.jointsOf(i)) removeTie(w.joints[slot], i, w.bodies.state());
+    if (!w.ties.jointsOf(i).empty()) removeLooseCouplings(w);
     removeLaw(w, i);
     w.bodies.release(i);
 }
