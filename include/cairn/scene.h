@@ -40,6 +40,7 @@ struct SceneBody {
     std::optional<Motion> motion;          ///< with it the body is fixed
     Vec3 pivot = Vec3::Zero();             ///< of the motion [m, frame of the shape]
     Vec3 surface_velocity = Vec3::Zero();  ///< [m/s, frame of the shape]
+    std::vector<JointAlong> locked;        ///< as that of BodyDescription
 };
 
 /// An exception of two bodies of a scene from what their groups say.
@@ -125,6 +126,7 @@ struct Scene {
     std::vector<Material> materials;
     PairProperties default_pair;
     std::vector<std::pair<std::pair<std::string, std::string>, PairProperties>> pairs;
+    std::vector<std::pair<std::pair<std::string, std::string>, PairLaw>> pair_laws;  ///< of some of them
     SceneFilters filters;
     std::optional<Motion> frame_motion;  ///< as World::setFrameMotion()
     std::vector<SceneBody> bodies;

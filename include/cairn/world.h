@@ -46,6 +46,7 @@ struct BodyDescription {
     std::optional<Motion> motion{};        ///< of a fixed body: as World::setMotion()
     Vec3 pivot = Vec3::Zero();             ///< of the motion [m, frame of the shape]
     Vec3 surface_velocity = Vec3::Zero();  ///< of a fixed body: as World::setSurfaceVelocity()
+    std::vector<JointAlong> locked{};      ///< of a dynamic body: as World::setLocked()
 };
 
 /// A damped spring between two points. @source pe engine's springs, by behaviour
@@ -137,6 +138,10 @@ class World {
     /// Properties where a touches b (and b touches a). @throws InputError as above or for an unknown material
     void setPairProperties(MaterialId a, MaterialId b, const PairProperties& properties);
     PairProperties pairProperties(MaterialId a, MaterialId b) const;
+    /// Lets properties where a touches b and b touches a depend on the velocity there, from now on. @throws InputError
+    /// for an unknown material or curves that are not ascending or out of range
+    void setPairLaw(MaterialId a, MaterialId b, const PairLaw& law);
+    PairLaw pairLaw(MaterialId a, MaterialId b) const;  ///< without curves unless it was set @throws InputError
 
     // --- bodies ---
     /// @throws InputError names the member, its value and what is allowed
@@ -185,8 +190,13 @@ class World {
     double gravityFactor(BodyId id) const;            ///< as that of the description
     /// Rates at which its velocities decay [1/s]. @throws InputError out of range
     void setDamping(BodyId id, double linear, double angular);
-    double linearDamping(BodyId id) const;            ///< [1/s]
-    double angularDamping(BodyId id) const;           ///< [1/s]
+    double linearDamping(BodyId id) const;   ///< [1/s]
+    double angularDamping(BodyId id) const;  ///< [1/s]
+    /// Along and about which axes of W a body does not move, whatever pushes it: its centre of mass stays on lines or
+    /// planes, its angular velocity has no such components. It stands where it does now. @param axes of W; none = it is
+    /// free @throws InputError for a fixed body or an axis given twice
+    void setLocked(BodyId id, std::span<const JointAlong> axes);
+    std::vector<JointAlong> locked(BodyId id) const;  ///< ascending
     void setUserData(BodyId id, std::uint64_t data);  ///< the world itself never reads it
     std::uint64_t userData(BodyId id) const;          ///< 0 unless it was set
 

@@ -391,6 +391,28 @@ class Material(_Record):
     def density(self) -> float:
         """[kg/m³], > 0"""
 
+class SpeedCurve(_Record):
+    """A value that depends on a speed: on straight lines between points, constant beyond them."""
+
+    def __init__(self, speeds: Sequence[float] = ..., values: Sequence[float] = ...) -> None: ...
+    @property
+    def speeds(self) -> tuple[float, ...]:
+        """[m/s], ≥ 0, ascending; none = the property does not depend on speed."""
+    @property
+    def values(self) -> tuple[float, ...]:
+        """As many."""
+
+class PairLaw(_Record):
+    """How properties of a pair depend on the velocity at a contact."""
+
+    def __init__(self, restitution: SpeedCurve = ..., friction: SpeedCurve = ...) -> None: ...
+    @property
+    def restitution(self) -> SpeedCurve:
+        """Over the speed with which they close; values 0 to 1."""
+    @property
+    def friction(self) -> SpeedCurve:
+        """Kinetic friction over the speed with which they slide."""
+
 class PairProperties(_Record):
     """Contact properties of a pair of materials."""
 
@@ -443,6 +465,7 @@ class BodyDescription(_Record):
         motion: Optional[Motion] = ...,
         pivot: ArrayLike = ...,
         surface_velocity: ArrayLike = ...,
+        locked: Sequence[Union[JointAlong, str]] = ...,
     ) -> None: ...
     @property
     def shape(self) -> Shape:
@@ -504,6 +527,9 @@ class BodyDescription(_Record):
     @property
     def surface_velocity(self) -> Floats:
         """Of a fixed body: with which its surface runs over it [m/s, frame of the shape]."""
+    @property
+    def locked(self) -> tuple[JointAlong, ...]:
+        """Axes of W along and about which a dynamic body does not move."""
 
 class SpringDescription(_Record):
     """A damped spring between two points."""
@@ -1641,6 +1667,7 @@ class SceneBody(_Record):
         motion: Optional[Motion] = ...,
         pivot: ArrayLike = ...,
         surface_velocity: ArrayLike = ...,
+        locked: Sequence[Union[JointAlong, str]] = ...,
     ) -> None: ...
     @property
     def shape(self) -> Shape:
@@ -1705,6 +1732,9 @@ class SceneBody(_Record):
     @property
     def surface_velocity(self) -> Floats:
         """Of a fixed body: with which its surface runs over it [m/s, frame of the shape]."""
+    @property
+    def locked(self) -> tuple[JointAlong, ...]:
+        """Axes of W along and about which a dynamic body does not move."""
 
 class SceneException(_Record):
     """An exception of two bodies of a scene from what their groups say."""
@@ -1886,6 +1916,7 @@ class Scene(_Record):
         materials: Sequence[Material] = ...,
         default_pair: PairProperties = ...,
         pairs: Union[Mapping[tuple[str, str], PairProperties], Sequence[tuple[tuple[str, str], PairProperties]]] = ...,
+        pair_laws: Union[Mapping[tuple[str, str], PairLaw], Sequence[tuple[tuple[str, str], PairLaw]]] = ...,
         filters: SceneFilters = ...,
         frame_motion: Optional[Motion] = ...,
         bodies: Sequence[SceneBody] = ...,
@@ -1915,6 +1946,9 @@ class Scene(_Record):
     @property
     def pairs(self) -> tuple[tuple[tuple[str, str], PairProperties], ...]:
         """Names of two materials, and what holds where they touch."""
+    @property
+    def pair_laws(self) -> tuple[tuple[tuple[str, str], PairLaw], ...]:
+        """Names of two of them, and what depends on speed there."""
     @property
     def filters(self) -> SceneFilters:
         """Which bodies touch each other."""
@@ -2031,7 +2065,7 @@ class World:
         name: str = ..., groups: Sequence[GroupId] = ..., sensor: bool = ..., gravity_factor: float = ...,
         linear_damping: float = ..., angular_damping: float = ..., user_data: int = ...,
         motion: Optional[Motion] = ..., pivot: ArrayLike = ..., surface_velocity: ArrayLike = ...,
-        *, position: ArrayLike = ..., orientation: ArrayLike = ...
+        locked: Sequence[Union[JointAlong, str]] = ..., *, position: ArrayLike = ..., orientation: ArrayLike = ...
     ) -> BodyId: ...
     def remove_body(self, id: BodyId) -> None:
         """Wakes the sleeping bodies that touched it; its springs and joints go with it. Raises StaleIdError."""
@@ -2074,6 +2108,15 @@ class World:
     ) -> None: ...
     def pair_properties(self, a: MaterialId, b: MaterialId) -> PairProperties:
         """Raises InputError."""
+    @overload
+    def set_pair_law(self, a: MaterialId, b: MaterialId, description: PairLaw, /) -> None:
+        """Lets properties where a touches b depend on the velocity there. Raises InputError."""
+    @overload
+    def set_pair_law(
+        self, a: MaterialId, b: MaterialId, restitution: SpeedCurve = ..., friction: SpeedCurve = ...
+    ) -> None: ...
+    def pair_law(self, a: MaterialId, b: MaterialId) -> PairLaw:
+        """Without curves unless it was set. Raises InputError."""
     @overload
     def add_spring(self, description: SpringDescription, /) -> SpringId:
         """Adds a spring. Raises InputError, StaleIdError."""
@@ -2316,6 +2359,10 @@ class World:
         """[1/s]"""
     def angular_damping(self, id: BodyId) -> float:
         """[1/s]"""
+    def set_locked(self, id: BodyId, axes: Sequence[Union[JointAlong, str]]) -> None:
+        """Along and about which axes of W it does not move; none = it is free. Raises InputError, StaleIdError."""
+    def locked(self, id: BodyId) -> tuple[JointAlong, ...]:
+        """Ascending."""
     def set_user_data(self, id: BodyId, data: int) -> None:
         """A number of the user's own, 0 to 2⁶⁴ - 1."""
     def user_data(self, id: BodyId) -> int:

@@ -108,6 +108,15 @@ void bindMaterials(py::module_& module) {
         .field("spinning_friction", &PairProperties::spinning_friction,
                "Likewise for the torque about the normal [m], ≥ 0.")
         .finish();
+    Record<SpeedCurve>(module, "SpeedCurve",
+                       "A value that depends on a speed: on straight lines between points, constant beyond them.")
+        .field("speeds", &SpeedCurve::speeds, "[m/s], ≥ 0, ascending; none = the property does not depend on speed.")
+        .field("values", &SpeedCurve::values, "As many.")
+        .finish();
+    Record<PairLaw>(module, "PairLaw", "How properties of a pair depend on the velocity at a contact.")
+        .field("restitution", &PairLaw::restitution, "Over the speed with which they close; values 0 to 1.")
+        .field("friction", &PairLaw::friction, "Kinetic friction over the speed with which they slide.")
+        .finish();
 }
 
 void bindDescriptions(py::module_& module) {
@@ -138,6 +147,7 @@ void bindDescriptions(py::module_& module) {
         .field("pivot", &BodyDescription::pivot, "Of the motion [m, frame of the shape].")
         .field("surface_velocity", &BodyDescription::surface_velocity,
                "Of a fixed body: with which its surface runs over it [m/s, frame of the shape].")
+        .field("locked", &BodyDescription::locked, "Axes of W along and about which a dynamic body does not move.")
         .finish();
     Record<SpringDescription>(module, "SpringDescription", "A damped spring between two points.")
         .field("a", &SpringDescription::a, "First body.")

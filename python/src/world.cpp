@@ -59,7 +59,16 @@ void bindMaterials(WorldClass& world) {
                 self.use().setPairProperties(a, b, recordFrom<PairProperties>(args, kwargs));
             },
             py::arg("a"), py::arg("b"), "Properties where a touches b and b touches a. Raises InputError.")
-        .def("pair_properties", on(&World::pairProperties), py::arg("a"), py::arg("b"), "Raises InputError.");
+        .def("pair_properties", on(&World::pairProperties), py::arg("a"), py::arg("b"), "Raises InputError.")
+        .def(
+            "set_pair_law",
+            [](const PyWorld& self, MaterialId a, MaterialId b, const py::args& args, const py::kwargs& kwargs) {
+                self.use().setPairLaw(a, b, recordFrom<PairLaw>(args, kwargs));
+            },
+            py::arg("a"), py::arg("b"),
+            "Lets properties where a touches b depend on the velocity there. Raises InputError.")
+        .def("pair_law", on(&World::pairLaw), py::arg("a"), py::arg("b"),
+             "Without curves unless it was set. Raises InputError.");
 }
 
 void bindTies(WorldClass& world) {

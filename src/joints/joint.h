@@ -67,6 +67,7 @@ struct Joint {
     std::vector<FreeAxis> free;                ///< what may move, by JointAlong
     double break_force = infinite;             ///< [N]
     double break_torque = infinite;            ///< [N·m]
+    std::uint8_t locked = 0;                   ///< of locks: which axes of the world, a bit for each JointAlong
     bool collide = false;                      ///< whether A and B may touch
     std::uint32_t first = 0;                   ///< of couplings: slot of a joint
     std::uint32_t second = 0;                  ///< of couplings: slot of the joint that follows it

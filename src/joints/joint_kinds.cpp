@@ -81,6 +81,33 @@ void keepScrew(const Joint& joint, const JointPlacement& at, JointBlock& block) 
         along.position - joint.lead * about.position);
 }
 
+bool isLocked(const Joint& joint, Eigen::Index along) {
+    return ((joint.locked >> along) & 1) != 0;
+}
+
+/// Of what may turn about one axis of the world that axis stays where it was. What may turn about two has no place to
+/// come back to: only its angular velocity is kept.
+void keepTurnsLocked(const Joint& joint, const JointPlacement& at, JointBlock& block) {
+    const std::array<bool, 3> locked{isLocked(joint, 3), isLocked(joint, 4), isLocked(joint, 5)};
+    const auto count = std::ranges::count(locked, true);
+    if (count == 3) return keepOrientation(joint, at, block);
+    Vec3 tilt = Vec3::Zero();
+    if (count == 2) {
+        const Vec3 free = Vec3::Unit(std::ranges::find(locked, false) - locked.begin());
+        tilt = free.cross(turnInB(joint, at) * free);
+    }
+    for (Eigen::Index i = 0; i < 3; ++i) {
+        if (isLocked(joint, 3 + i)) add(block, angularRow(Vec3::Unit(i)), tilt[i]);
+    }
+}
+
+void keepLocked(const Joint& joint, const JointPlacement& at, JointBlock& block) {
+    for (Eigen::Index i = 0; i < 3; ++i) {
+        if (isLocked(joint, i)) add(block, linearRow(at, Vec3::Unit(i)), at.apart[i]);
+    }
+    keepTurnsLocked(joint, at, block);
+}
+
 JointMotion moveLength(const Joint&, const JointPlacement& at, const FreeAxis&) {
     return lengthOf(at);
 }
@@ -104,7 +131,7 @@ constexpr std::array<JointAlong, 2> free_universal = {turn_x, turn_y};
 constexpr std::array<JointAlong, 3> free_planar = {y, z, turn_x};
 constexpr std::array<JointAlong, 2> free_cylindrical = {x, turn_x};
 
-constexpr std::array<JointKindEntry, 14> entries = {{
+constexpr std::array<JointKindEntry, 15> entries = {{
     {"distance", "distance", {.length = true}, {}, keepLength, moveLength},
     {"rope", "rope", {.length = true}, {}, keepNothing, moveLength},
     {"ball", "ball joint", {.second_axis = true, .cone = true, .axes = true}, free_ball, keepPoint, moveBall},
@@ -144,14 +171,19 @@ constexpr std::array<JointKindEntry, 14> entries = {{
     {"gear", "gear", {.couples = true}, {}, nullptr, nullptr},
     {"rack", "rack", {.couples = true}, {}, nullptr, nullptr},
     {"mimic", "mimic", {.couples = true}, {}, nullptr, nullptr},
+    {"locked", "body with locked axes", {}, {}, keepLocked, moveLength},
 }};
 
-static_assert(entries.size() == static_cast<std::size_t>(JointKind::mimic) + 1);
+static_assert(entries.size() == static_cast<std::size_t>(body_locks) + 1);
 
 }  // namespace
 
 std::span<const JointKindEntry> jointKinds() {
-    return entries;
+    return std::span(entries).first(static_cast<std::size_t>(body_locks));
+}
+
+const JointKindEntry& entryOf(JointKind kind) {
+    return entries[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace cairn

@@ -36,12 +36,14 @@ struct JointKindEntry {
     JointMotion (*motion)(const Joint& joint, const JointPlacement& at, const FreeAxis& axis);
 };
 
+/// The locked axes of a body, which are kept like a joint that nobody but the world knows of.
+inline constexpr JointKind body_locks = static_cast<JointKind>(static_cast<std::uint8_t>(JointKind::mimic) + 1);
+
 /// All kinds, in the order of JointKind.
 std::span<const JointKindEntry> jointKinds();
 
-inline const JointKindEntry& entryOf(JointKind kind) {
-    return jointKinds()[static_cast<std::size_t>(kind)];
-}
+/// @pre kind <= body_locks
+const JointKindEntry& entryOf(JointKind kind);
 
 /// Whether a position along an axis is an angle.
 inline bool isAngle(JointAlong along) {

@@ -38,6 +38,8 @@ class JsonNode {
     JsonNode(const Json& value, std::string_view source) : value_(&value), source_(source) {}
 
     const Json& value() const { return *value_; }
+    /// Of the document, shown in messages.
+    std::string_view source() const { return source_; }
     /// Such as `bodies[3].shape.radius`; empty for the root.
     std::string path() const;
 

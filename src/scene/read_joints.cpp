@@ -113,12 +113,7 @@ JointAxis readFreeAxis(const JsonNode& node, const JointUses& uses) {
     node.expectKeys(std::span<const std::string_view>(keys));
     JointAxis axis;
     if (uses.free_axes) {
-        const JsonNode along = node.required("along", "which axis is free");
-        const std::string name = along.text();
-        constexpr auto names = jointAxisNames();
-        const auto found = std::find(names.begin(), names.end(), name);
-        if (found == names.end()) along.refuse(fmt::format("{}", fmt::join(names, ", ")));
-        axis.along = static_cast<JointAlong>(found - names.begin());
+        axis.along = readJointAlong(node.required("along", "which axis is free"));
     }
     readAxisInto(node, axis);
     return axis;
@@ -179,6 +174,14 @@ SceneJoint readJoint(const JsonNode& node, const SceneReading& reading) {
 }
 
 }  // namespace
+
+JointAlong readJointAlong(const JsonNode& node) {
+    const std::string name = node.text();
+    constexpr auto names = jointAxisNames();
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) node.refuse(fmt::format("{}", fmt::join(names, ", ")));
+    return static_cast<JointAlong>(found - names.begin());
+}
 
 void readJoints(const JsonNode& node, SceneReading& reading) {
     node.expectArray("an array of joints");

@@ -77,6 +77,11 @@ MaterialIds addMaterials(const Scene& scene, World& world) {
             world.setPairProperties(findMaterial(ids, key.first), findMaterial(ids, key.second), properties);
         });
     }
+    for (const auto& [names, law] : scene.pair_laws) {
+        inContext(fmt::format("contacts '{}/{}'", names.first, names.second), [&, &key = names, &its = law] {
+            world.setPairLaw(findMaterial(ids, key.first), findMaterial(ids, key.second), its);
+        });
+    }
     return ids;
 }
 
@@ -117,6 +122,7 @@ BodyDescription describe(const SceneBody& body, const MaterialIds& materials, co
     description.motion = body.motion;
     description.pivot = body.pivot;
     description.surface_velocity = body.surface_velocity;
+    description.locked = body.locked;
     return description;
 }
 

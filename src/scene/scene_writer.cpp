@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
 
 #include "cairn/scene.h"
+#include "scene/joint_axis_names.h"
 #include "scene/json_node.h"
 #include "scene/scene_writing.h"
 
@@ -136,6 +138,13 @@ std::string ownText(const SceneBody& body) {
     if (!isOmitted(body.surface_velocity)) {
         out += fmt::format(R"(,"surface_velocity":{})", vector(body.surface_velocity));
     }
+    if (!body.locked.empty()) {
+        std::vector<std::string> names;
+        for (const JointAlong along : body.locked) {
+            names.emplace_back(jointAxisNames()[static_cast<std::size_t>(along)]);
+        }
+        out += fmt::format(R"(,"locked":{})", namesText(names));
+    }
     if (body.user_data != 0) out += fmt::format(R"(,"user_data":{})", body.user_data);
     return out;
 }
@@ -219,7 +228,13 @@ std::string contactsText(const Scene& scene) {
     if (!same(d.spinning_friction, 0)) out += fmt::format(R"(,"spinning_friction":{})", number(d.spinning_friction));
     out += "}";
     for (const auto& [names, pair] : scene.pairs) {
-        out += fmt::format(",\n{}:{}", text(names.first + "/" + names.second), pairText(pair, d));
+        std::string properties = pairText(pair, d);
+        const auto law = std::ranges::find(scene.pair_laws, names, [](const auto& entry) { return entry.first; });
+        if (law != scene.pair_laws.end()) {
+            properties.back() = properties.size() > 2 ? ',' : ' ';
+            properties += fmt::format(R"("law":{}}})", pairLawText(law->second));
+        }
+        out += fmt::format(",\n{}:{}", text(names.first + "/" + names.second), properties);
     }
     return out + "}";
 }

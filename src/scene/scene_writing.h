@@ -20,6 +20,7 @@ bool isOmitted(const Vec3& v);
 
 }  // namespace written
 
+std::string pairLawText(const PairLaw& law);
 std::string jointText(const SceneJoint& scene_joint);
 
 }  // namespace cairn

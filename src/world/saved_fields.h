@@ -73,6 +73,12 @@ void pairFields(Stream& stream, Pair& pair) {
     field(stream, pair.spinning_friction);
 }
 
+template <class Stream, class Curve>
+void curveArrays(Stream& stream, Curve& curve) {
+    array(stream, curve.speeds);
+    array(stream, curve.values);
+}
+
 template <class Stream, class World>
 void worldFields(Stream& stream, World& world) {
     field(stream, world.gravity);
@@ -155,6 +161,7 @@ void jointFields(Stream& stream, AnyJoint& joint) {
     field(stream, joint.break_force);
     field(stream, joint.break_torque);
     field(stream, joint.collide);
+    field(stream, joint.locked);
     field(stream, joint.first);
     field(stream, joint.second);
     field(stream, joint.first_axis);

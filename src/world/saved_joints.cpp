@@ -44,7 +44,7 @@ bool hasAxesOf(const JointKindEntry& kind, const std::vector<FreeAxis>& axes) {
 
 /// Whether addJoint() could have made it, or a setter changed it so.
 bool isSound(const Joint& joint, const BodyStorage& bodies) {
-    if (static_cast<std::size_t>(joint.kind) >= jointKinds().size()) return false;
+    if (joint.kind > body_locks || joint.locked >= 1U << 6U) return false;
     const JointKindEntry& kind = entryOf(joint.kind);
     const auto exists = [&](BodyIndex i) { return i < bodies.slots() && bodies.kind[i] != BodyKind::hole; };
     const bool known = exists(joint.a) && (joint.b == Joint::world || exists(joint.b)) &&

@@ -79,6 +79,12 @@ void saveMaterials(const MaterialTable& materials, ByteWriter& out) {
             if (own != nullptr) pairFields(out, *own);
         }
     }
+    saveList(out, materials.laws(), [&](const MaterialTable::LawOfPair& entry) {
+        out.put(entry.a);
+        out.put(entry.b);
+        curveArrays(out, entry.law.restitution);
+        curveArrays(out, entry.law.friction);
+    });
 }
 
 void loadMaterials(ByteReader& in, MaterialTable& materials) {
@@ -97,6 +103,14 @@ void loadMaterials(ByteReader& in, MaterialTable& materials) {
                 pairFields(in, pair);
                 materials.setPair(static_cast<MaterialId>(a), static_cast<MaterialId>(b), pair);
             }
+        }
+        for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
+            const auto a = static_cast<MaterialId>(in.get<std::uint32_t>());
+            const auto b = static_cast<MaterialId>(in.get<std::uint32_t>());
+            PairLaw law;
+            curveArrays(in, law.restitution);
+            curveArrays(in, law.friction);
+            materials.setLaw(a, b, law);
         }
     } catch (const StaleIdError&) {
         throw;

@@ -202,7 +202,8 @@ bool World::contains(JointId id) const noexcept {
 std::vector<JointId> World::joints() const {
     std::vector<JointId> ids;
     for (std::uint32_t i = 0; i < state_->joints.size(); ++i) {
-        if (state_->joints[i].present) ids.push_back({i, state_->joints[i].generation});
+        const Joint& joint = state_->joints[i];
+        if (joint.present && joint.kind != body_locks) ids.push_back({i, state_->joints[i].generation});
     }
     return ids;
 }
