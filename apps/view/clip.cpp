@@ -183,7 +183,8 @@ json describeJoints(const SceneRun& run) {
         const JointInfo info = world.joint(ids[i]);
         const Pose a = world.pose(info.a);
         const Pose b = info.b ? world.pose(*info.b) : Pose{};
-        json joint = describeLine(given.a, given.b, a.toInner(info.anchor_a), b.toInner(info.anchor_b));
+        const std::optional<std::size_t> other = info.b ? std::optional<std::size_t>(info.b->index) : std::nullopt;
+        json joint = describeLine(info.a.index, other, a.toInner(info.anchor_a), b.toInner(info.anchor_b));
         joint["kind"] = static_cast<std::uint32_t>(info.kind);
         joint["axis"] = toJson(Vec3(b.orientation.conjugate() * info.axis));
         joint["length"] = given.joint.length.value_or((info.anchor_a - info.anchor_b).norm());

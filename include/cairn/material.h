@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace cairn {
 
@@ -19,6 +20,20 @@ struct PairProperties {
     /// Greatest torque against rolling over the normal force [m], ≥ 0; 0 = rolls freely, as in the thesis.
     double rolling_friction = 0;
     double spinning_friction = 0;  ///< likewise for the torque about the normal [m], ≥ 0
+};
+
+/// A value that depends on a speed: on straight lines between points, constant before the first and after the last.
+struct SpeedCurve {
+    std::vector<double> speeds{};  ///< [m/s], ≥ 0, ascending; none = the property does not depend on speed
+    std::vector<double> values{};  ///< as many
+};
+
+/// How properties of a pair of materials depend on the velocity with which two bodies meet at a contact, as it is in a
+/// step when the forces have acted. What has no curve stays as PairProperties say.
+struct PairLaw {
+    SpeedCurve restitution{};  ///< over the speed with which they close along the normal; values 0 to 1
+    /// Kinetic friction over the speed with which they slide; values ≥ 0. Static friction is at least as large.
+    SpeedCurve friction{};
 };
 
 }  // namespace cairn

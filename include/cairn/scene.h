@@ -40,6 +40,7 @@ struct SceneBody {
     std::optional<Motion> motion;          ///< with it the body is fixed
     Vec3 pivot = Vec3::Zero();             ///< of the motion [m, frame of the shape]
     Vec3 surface_velocity = Vec3::Zero();  ///< [m/s, frame of the shape]
+    std::vector<JointAlong> locked;        ///< as that of BodyDescription
 };
 
 /// An exception of two bodies of a scene from what their groups say.
@@ -61,9 +62,11 @@ struct SceneFilters {
 
 /// A joint of a scene.
 struct SceneJoint {
-    std::size_t a = 0;             ///< index in Scene::bodies
-    std::optional<std::size_t> b;  ///< index in Scene::bodies; none = the world
-    JointDescription joint;        ///< all else, as the bodies stand at the beginning
+    std::size_t a = 0;                    ///< index in Scene::bodies
+    std::optional<std::size_t> b;         ///< index in Scene::bodies; none = the world
+    JointDescription joint;               ///< all else, as the bodies stand at the beginning
+    std::optional<std::size_t> first{};   ///< of gears, racks and mimics: index of an earlier one in Scene::joints
+    std::optional<std::size_t> second{};  ///< likewise
 };
 
 /// A spring of a scene.
@@ -123,6 +126,7 @@ struct Scene {
     std::vector<Material> materials;
     PairProperties default_pair;
     std::vector<std::pair<std::pair<std::string, std::string>, PairProperties>> pairs;
+    std::vector<std::pair<std::pair<std::string, std::string>, PairLaw>> pair_laws;  ///< of some of them
     SceneFilters filters;
     std::optional<Motion> frame_motion;  ///< as World::setFrameMotion()
     std::vector<SceneBody> bodies;

@@ -46,6 +46,7 @@ struct BodyDescription {
     std::optional<Motion> motion{};        ///< of a fixed body: as World::setMotion()
     Vec3 pivot = Vec3::Zero();             ///< of the motion [m, frame of the shape]
     Vec3 surface_velocity = Vec3::Zero();  ///< of a fixed body: as World::setSurfaceVelocity()
+    std::vector<JointAlong> locked{};      ///< of a dynamic body: as World::setLocked()
 };
 
 /// A damped spring between two points. @source pe engine's springs, by behaviour
@@ -137,6 +138,10 @@ class World {
     /// Properties where a touches b (and b touches a). @throws InputError as above or for an unknown material
     void setPairProperties(MaterialId a, MaterialId b, const PairProperties& properties);
     PairProperties pairProperties(MaterialId a, MaterialId b) const;
+    /// Lets properties where a touches b and b touches a depend on the velocity there, from now on. @throws InputError
+    /// for an unknown material or curves that are not ascending or out of range
+    void setPairLaw(MaterialId a, MaterialId b, const PairLaw& law);
+    PairLaw pairLaw(MaterialId a, MaterialId b) const;  ///< without curves unless it was set @throws InputError
 
     // --- bodies ---
     /// @throws InputError names the member, its value and what is allowed
@@ -185,8 +190,13 @@ class World {
     double gravityFactor(BodyId id) const;            ///< as that of the description
     /// Rates at which its velocities decay [1/s]. @throws InputError out of range
     void setDamping(BodyId id, double linear, double angular);
-    double linearDamping(BodyId id) const;            ///< [1/s]
-    double angularDamping(BodyId id) const;           ///< [1/s]
+    double linearDamping(BodyId id) const;   ///< [1/s]
+    double angularDamping(BodyId id) const;  ///< [1/s]
+    /// Along and about which axes of W a body does not move, whatever pushes it: its centre of mass stays on lines or
+    /// planes, its angular velocity has no such components. It stands where it does now. @param axes of W; none = it is
+    /// free @throws InputError for a fixed body or an axis given twice
+    void setLocked(BodyId id, std::span<const JointAlong> axes);
+    std::vector<JointAlong> locked(BodyId id) const;  ///< ascending
     void setUserData(BodyId id, std::uint64_t data);  ///< the world itself never reads it
     std::uint64_t userData(BodyId id) const;          ///< 0 unless it was set
 
@@ -262,10 +272,15 @@ class World {
     bool contains(JointId id) const noexcept;
     std::vector<JointId> joints() const;  ///< all of them, in ascending order of index
     JointInfo joint(JointId id) const;    ///< @throws StaleIdError
-    /// Of hinges and sliders; a limit of 0 switches the motor off. Wakes the bodies. @throws as addJoint
+    /// Of hinges, sliders and screws; a limit of 0 switches the motor off. Wakes the bodies. @throws as addJoint
     void setJointMotor(JointId id, const JointMotor& motor);
-    /// Of hinges [rad, −π to π] and sliders [m]. Wakes the bodies. @throws as addJoint
+    /// Of hinges and screws [rad] and sliders [m]. Wakes the bodies. @throws as addJoint
     void setJointLimits(JointId id, std::optional<double> lower, std::optional<double> upper);
+    /// Of hinges, sliders and screws: what it drives to from now on. Wakes the bodies. @throws as addJoint
+    void setJointServo(JointId id, const JointServo& servo);
+    /// All that acts along a free axis from now on. Wakes the bodies. @param index of the axis, as in
+    /// JointInfo::positions @throws as addJoint
+    void setJointAxis(JointId id, std::size_t index, const JointAxis& axis);
 
     // --- global accelerations; a change wakes every body ---
     /// @param gravity [m/s², W] @throws InputError if not finite or contradicting the settings (3.2.5)

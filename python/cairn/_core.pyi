@@ -96,6 +96,24 @@ class JointKind(enum.IntEnum):
     hinge = 3
     slider = 4
     fixed = 5
+    universal = 6
+    planar = 7
+    cylindrical = 8
+    screw = 9
+    generic = 10
+    gear = 11
+    rack = 12
+    mimic = 13
+
+class JointAlong(enum.IntEnum):
+    """Along or about which axis of a joint's frame A can move relative to B."""
+
+    x = 0
+    y = 1
+    z = 2
+    turn_x = 3
+    turn_y = 4
+    turn_z = 5
 
 class Touch(enum.IntEnum):
     """Whether two bodies may touch."""
@@ -373,6 +391,28 @@ class Material(_Record):
     def density(self) -> float:
         """[kg/m³], > 0"""
 
+class SpeedCurve(_Record):
+    """A value that depends on a speed: on straight lines between points, constant beyond them."""
+
+    def __init__(self, speeds: Sequence[float] = ..., values: Sequence[float] = ...) -> None: ...
+    @property
+    def speeds(self) -> tuple[float, ...]:
+        """[m/s], ≥ 0, ascending; none = the property does not depend on speed."""
+    @property
+    def values(self) -> tuple[float, ...]:
+        """As many."""
+
+class PairLaw(_Record):
+    """How properties of a pair depend on the velocity at a contact."""
+
+    def __init__(self, restitution: SpeedCurve = ..., friction: SpeedCurve = ...) -> None: ...
+    @property
+    def restitution(self) -> SpeedCurve:
+        """Over the speed with which they close; values 0 to 1."""
+    @property
+    def friction(self) -> SpeedCurve:
+        """Kinetic friction over the speed with which they slide."""
+
 class PairProperties(_Record):
     """Contact properties of a pair of materials."""
 
@@ -425,6 +465,7 @@ class BodyDescription(_Record):
         motion: Optional[Motion] = ...,
         pivot: ArrayLike = ...,
         surface_velocity: ArrayLike = ...,
+        locked: Sequence[Union[JointAlong, str]] = ...,
     ) -> None: ...
     @property
     def shape(self) -> Shape:
@@ -486,6 +527,9 @@ class BodyDescription(_Record):
     @property
     def surface_velocity(self) -> Floats:
         """Of a fixed body: with which its surface runs over it [m/s, frame of the shape]."""
+    @property
+    def locked(self) -> tuple[JointAlong, ...]:
+        """Axes of W along and about which a dynamic body does not move."""
 
 class SpringDescription(_Record):
     """A damped spring between two points."""
@@ -523,7 +567,7 @@ class SpringDescription(_Record):
         """[m], ≥ 0"""
 
 class JointMotor(_Record):
-    """Drives a hinge or a slider at a speed, as far as its force reaches."""
+    """Drives a free axis at a speed, as far as its force reaches."""
 
     def __init__(self, speed: float = ..., limit: float = ...) -> None: ...
     @property
@@ -532,6 +576,92 @@ class JointMotor(_Record):
     @property
     def limit(self) -> float:
         """Largest torque or force [N·m or N], ≥ 0."""
+
+class JointServo(_Record):
+    """Drives a free axis to a position, at a speed, or both; stable whatever the gains are."""
+
+    def __init__(
+        self,
+        position: float = ...,
+        speed: float = ...,
+        stiffness: float = ...,
+        damping: float = ...,
+        limit: float = ...,
+    ) -> None: ...
+    @property
+    def position(self) -> float:
+        """Wanted [rad or m]."""
+    @property
+    def speed(self) -> float:
+        """Wanted [rad/s or m/s]."""
+    @property
+    def stiffness(self) -> float:
+        """Gain of the position [N·m/rad or N/m], 0 to 1e30; 0 = it drives a speed only."""
+    @property
+    def damping(self) -> float:
+        """Gain of the speed [N·m·s/rad or N·s/m], 0 to 1e30."""
+    @property
+    def limit(self) -> float:
+        """Largest torque or force [N·m or N], ≥ 0."""
+    no_limit: float
+
+class JointSpring(_Record):
+    """Pulls a free axis to a position; stable whatever the stiffness is."""
+
+    def __init__(self, stiffness: float = ..., rest: float = ...) -> None: ...
+    @property
+    def stiffness(self) -> float:
+        """[N·m/rad or N/m], 0 to 1e30"""
+    @property
+    def rest(self) -> float:
+        """Position without force [rad or m]."""
+
+class JointAxis(_Record):
+    """What acts along or about one free axis of a joint."""
+
+    def __init__(
+        self,
+        along: Union[JointAlong, str] = ...,
+        lower: Optional[float] = ...,
+        upper: Optional[float] = ...,
+        restitution: float = ...,
+        motor: Optional[JointMotor] = ...,
+        servo: Optional[JointServo] = ...,
+        spring: Optional[JointSpring] = ...,
+        damping: float = ...,
+        friction: float = ...,
+        rotor_inertia: float = ...,
+    ) -> None: ...
+    @property
+    def along(self) -> JointAlong:
+        """Of generic joints: which axis is free."""
+    @property
+    def lower(self) -> Optional[float]:
+        """Least position [rad or m]."""
+    @property
+    def upper(self) -> Optional[float]:
+        """Greatest position [rad or m], ≥ lower."""
+    @property
+    def restitution(self) -> float:
+        """Part of the speed with which a limit throws back, 0 to 1."""
+    @property
+    def motor(self) -> Optional[JointMotor]:
+        """Drives at a speed; an axis has a motor or a servo."""
+    @property
+    def servo(self) -> Optional[JointServo]:
+        """Drives to a position or at a speed."""
+    @property
+    def spring(self) -> Optional[JointSpring]:
+        """Pulls to a position."""
+    @property
+    def damping(self) -> float:
+        """Force per speed [N·m·s/rad or N·s/m], 0 to 1e30."""
+    @property
+    def friction(self) -> float:
+        """Largest torque or force of dry friction [N·m or N], ≥ 0."""
+    @property
+    def rotor_inertia(self) -> float:
+        """Of what turns with the axis [kg·m² or kg], 0 to 1e30."""
 
 class JointDescription(_Record):
     """How a joint begins, in W as the bodies stand then."""
@@ -544,13 +674,28 @@ class JointDescription(_Record):
         anchor: ArrayLike = ...,
         anchor_b: Optional[ArrayLike] = ...,
         axis: ArrayLike = ...,
+        axis_2: Optional[ArrayLike] = ...,
         length: Optional[float] = ...,
+        lead: Optional[float] = ...,
         lower: Optional[float] = ...,
         upper: Optional[float] = ...,
+        restitution: float = ...,
         motor: Optional[JointMotor] = ...,
+        servo: Optional[JointServo] = ...,
+        spring: Optional[JointSpring] = ...,
+        damping: float = ...,
+        friction: float = ...,
+        rotor_inertia: float = ...,
+        cone: Optional[float] = ...,
+        axes: Sequence[JointAxis] = ...,
         break_force: float = ...,
         break_torque: float = ...,
         collide: bool = ...,
+        first: JointId = ...,
+        second: JointId = ...,
+        first_axis: int = ...,
+        second_axis: int = ...,
+        ratio: float = ...,
     ) -> None: ...
     @property
     def kind(self) -> JointKind:
@@ -569,19 +714,49 @@ class JointDescription(_Record):
         """Of distances and ropes: the point of B or the world [m, W]."""
     @property
     def axis(self) -> Floats:
-        """Of hinges and sliders, of any length above 0 [W]."""
+        """Of any length above 0 [W]; of planar joints the normal."""
+    @property
+    def axis_2(self) -> Optional[Floats]:
+        """Of universal, planar, generic and ball joints: not along axis [W]."""
     @property
     def length(self) -> Optional[float]:
         """Of distances and ropes [m], > 0; otherwise the distance at the beginning."""
     @property
+    def lead(self) -> Optional[float]:
+        """Of screws: displacement per turn [m]."""
+    @property
     def lower(self) -> Optional[float]:
-        """Of hinges [rad] and sliders [m]: least position."""
+        """Of hinges, sliders and screws, as in JointAxis."""
     @property
     def upper(self) -> Optional[float]:
-        """Of hinges [rad] and sliders [m]: greatest position."""
+        """Of hinges, sliders and screws, as in JointAxis."""
+    @property
+    def restitution(self) -> float:
+        """Of hinges, sliders and screws, as in JointAxis."""
     @property
     def motor(self) -> Optional[JointMotor]:
-        """Of hinges and sliders."""
+        """Of hinges, sliders and screws, as in JointAxis."""
+    @property
+    def servo(self) -> Optional[JointServo]:
+        """Of hinges, sliders and screws, as in JointAxis."""
+    @property
+    def spring(self) -> Optional[JointSpring]:
+        """Of hinges, sliders and screws, as in JointAxis."""
+    @property
+    def damping(self) -> float:
+        """Of hinges, sliders and screws, as in JointAxis."""
+    @property
+    def friction(self) -> float:
+        """Of hinges, sliders and screws, as in JointAxis."""
+    @property
+    def rotor_inertia(self) -> float:
+        """Of hinges, sliders and screws, as in JointAxis."""
+    @property
+    def cone(self) -> Optional[float]:
+        """Of balls: largest angle between the axes of A and B [rad], 0 to π."""
+    @property
+    def axes(self) -> tuple[JointAxis, ...]:
+        """What acts along the free axes of other joints; of generic ones which are free."""
     @property
     def break_force(self) -> float:
         """Above which the joint breaks [N], > 0."""
@@ -591,6 +766,21 @@ class JointDescription(_Record):
     @property
     def collide(self) -> bool:
         """Whether the two bodies may touch each other."""
+    @property
+    def first(self) -> JointId:
+        """Of gears, racks and mimics: a joint."""
+    @property
+    def second(self) -> JointId:
+        """The joint that follows it."""
+    @property
+    def first_axis(self) -> int:
+        """Which free axis of the first."""
+    @property
+    def second_axis(self) -> int:
+        """Which free axis of the second."""
+    @property
+    def ratio(self) -> float:
+        """Of gears: opposite turns per turn; of racks [m/rad] and mimics: position per position."""
     infinite: float
 
 class JointInfo(_Record):
@@ -611,16 +801,19 @@ class JointInfo(_Record):
         angular_impulse: ArrayLike,
         force: ArrayLike,
         torque: ArrayLike,
+        positions: Sequence[float],
+        speeds: Sequence[float],
+        redundant: int,
     ) -> None: ...
     @property
     def kind(self) -> JointKind:
         """What it keeps."""
     @property
     def a(self) -> BodyId:
-        """First body."""
+        """First body; of gears, racks and mimics that of the first joint."""
     @property
     def b(self) -> Optional[BodyId]:
-        """Second body; None = the world."""
+        """Second body, None = the world; of gears, racks and mimics the second joint's first."""
     @property
     def anchor_a(self) -> Floats:
         """The point of A [m, W]."""
@@ -629,10 +822,10 @@ class JointInfo(_Record):
         """The point of B or of the world [m, W]."""
     @property
     def axis(self) -> Floats:
-        """Of hinges and sliders, that of B: unit, W."""
+        """That of B: unit, W."""
     @property
     def position(self) -> float:
-        """Angle [rad], displacement or length [m]."""
+        """Of the first free axis; of distances and ropes their length [rad or m]."""
     @property
     def speed(self) -> float:
         """Its rate [rad/s or m/s]."""
@@ -651,6 +844,15 @@ class JointInfo(_Record):
     @property
     def torque(self) -> Floats:
         """The angular impulse divided by the time step [N·m, W]."""
+    @property
+    def positions(self) -> tuple[float, ...]:
+        """Of the free axes [rad or m]; angles count on over turns."""
+    @property
+    def speeds(self) -> tuple[float, ...]:
+        """Their rates [rad/s or m/s]."""
+    @property
+    def redundant(self) -> int:
+        """How many of its conditions followed from those of others in the last step."""
 
 class Ray(_Record):
     """A half line, or a line with an end."""
@@ -1462,6 +1664,7 @@ class SceneBody(_Record):
         motion: Optional[Motion] = ...,
         pivot: ArrayLike = ...,
         surface_velocity: ArrayLike = ...,
+        locked: Sequence[Union[JointAlong, str]] = ...,
     ) -> None: ...
     @property
     def shape(self) -> Shape:
@@ -1526,6 +1729,9 @@ class SceneBody(_Record):
     @property
     def surface_velocity(self) -> Floats:
         """Of a fixed body: with which its surface runs over it [m/s, frame of the shape]."""
+    @property
+    def locked(self) -> tuple[JointAlong, ...]:
+        """Axes of W along and about which a dynamic body does not move."""
 
 class SceneException(_Record):
     """An exception of two bodies of a scene from what their groups say."""
@@ -1565,7 +1771,14 @@ class SceneFilters(_Record):
 class SceneJoint(_Record):
     """A joint of a scene."""
 
-    def __init__(self, a: int, b: Optional[int], joint: JointDescription) -> None: ...
+    def __init__(
+        self,
+        a: int,
+        b: Optional[int],
+        joint: JointDescription,
+        first: Optional[int] = ...,
+        second: Optional[int] = ...,
+    ) -> None: ...
     @property
     def a(self) -> int:
         """Index in Scene.bodies."""
@@ -1575,6 +1788,12 @@ class SceneJoint(_Record):
     @property
     def joint(self) -> JointDescription:
         """All else, as the bodies stand at the beginning."""
+    @property
+    def first(self) -> Optional[int]:
+        """Of gears, racks and mimics: index of an earlier one in Scene.joints."""
+    @property
+    def second(self) -> Optional[int]:
+        """Likewise: the joint that follows it."""
 
 class SceneSpring(_Record):
     """A spring of a scene."""
@@ -1694,6 +1913,7 @@ class Scene(_Record):
         materials: Sequence[Material] = ...,
         default_pair: PairProperties = ...,
         pairs: Union[Mapping[tuple[str, str], PairProperties], Sequence[tuple[tuple[str, str], PairProperties]]] = ...,
+        pair_laws: Union[Mapping[tuple[str, str], PairLaw], Sequence[tuple[tuple[str, str], PairLaw]]] = ...,
         filters: SceneFilters = ...,
         frame_motion: Optional[Motion] = ...,
         bodies: Sequence[SceneBody] = ...,
@@ -1723,6 +1943,9 @@ class Scene(_Record):
     @property
     def pairs(self) -> tuple[tuple[tuple[str, str], PairProperties], ...]:
         """Names of two materials, and what holds where they touch."""
+    @property
+    def pair_laws(self) -> tuple[tuple[tuple[str, str], PairLaw], ...]:
+        """Names of two of them, and what depends on speed there."""
     @property
     def filters(self) -> SceneFilters:
         """Which bodies touch each other."""
@@ -1839,7 +2062,7 @@ class World:
         name: str = ..., groups: Sequence[GroupId] = ..., sensor: bool = ..., gravity_factor: float = ...,
         linear_damping: float = ..., angular_damping: float = ..., user_data: int = ...,
         motion: Optional[Motion] = ..., pivot: ArrayLike = ..., surface_velocity: ArrayLike = ...,
-        *, position: ArrayLike = ..., orientation: ArrayLike = ...
+        locked: Sequence[Union[JointAlong, str]] = ..., *, position: ArrayLike = ..., orientation: ArrayLike = ...
     ) -> BodyId: ...
     def remove_body(self, id: BodyId) -> None:
         """Wakes the sleeping bodies that touched it; its springs and joints go with it. Raises StaleIdError."""
@@ -1883,6 +2106,15 @@ class World:
     def pair_properties(self, a: MaterialId, b: MaterialId) -> PairProperties:
         """Raises InputError."""
     @overload
+    def set_pair_law(self, a: MaterialId, b: MaterialId, description: PairLaw, /) -> None:
+        """Lets properties where a touches b depend on the velocity there. Raises InputError."""
+    @overload
+    def set_pair_law(
+        self, a: MaterialId, b: MaterialId, restitution: SpeedCurve = ..., friction: SpeedCurve = ...
+    ) -> None: ...
+    def pair_law(self, a: MaterialId, b: MaterialId) -> PairLaw:
+        """Without curves unless it was set. Raises InputError."""
+    @overload
     def add_spring(self, description: SpringDescription, /) -> SpringId:
         """Adds a spring. Raises InputError, StaleIdError."""
     @overload
@@ -1899,10 +2131,14 @@ class World:
         """Joins bodies as they stand now. Raises InputError, StaleIdError."""
     @overload
     def add_joint(
-        self, kind: Union[JointKind, str], a: BodyId, b: Optional[BodyId] = ..., anchor: ArrayLike = ...,
-        anchor_b: Optional[ArrayLike] = ..., axis: ArrayLike = ..., length: Optional[float] = ...,
-        lower: Optional[float] = ..., upper: Optional[float] = ..., motor: Optional[JointMotor] = ...,
-        break_force: float = ..., break_torque: float = ..., collide: bool = ...
+        self, kind: Union[JointKind, str], a: BodyId = ..., b: Optional[BodyId] = ..., anchor: ArrayLike =
+        ..., anchor_b: Optional[ArrayLike] = ..., axis: ArrayLike = ..., axis_2: Optional[ArrayLike] = ...,
+        length: Optional[float] = ..., lead: Optional[float] = ..., lower: Optional[float] = ..., upper:
+        Optional[float] = ..., restitution: float = ..., motor: Optional[JointMotor] = ..., servo:
+        Optional[JointServo] = ..., spring: Optional[JointSpring] = ..., damping: float = ..., friction: float
+        = ..., rotor_inertia: float = ..., cone: Optional[float] = ..., axes: Sequence[JointAxis] = ...,
+        break_force: float = ..., break_torque: float = ..., collide: bool = ..., first: JointId = ...,
+        second: JointId = ..., first_axis: int = ..., second_axis: int = ..., ratio: float = ...
     ) -> JointId: ...
     def remove_joint(self, id: JointId) -> None:
         """Wakes its bodies. Raises StaleIdError."""
@@ -1912,13 +2148,23 @@ class World:
         """As it was after the last step. Raises StaleIdError."""
     @overload
     def set_joint_motor(self, id: JointId, description: JointMotor, /) -> None:
-        """Of hinges and sliders; a limit of 0 switches it off. Raises InputError, StaleIdError."""
+        """Of hinges, sliders and screws; a limit of 0 switches it off. Raises InputError, StaleIdError."""
     @overload
     def set_joint_motor(
         self, id: JointId, speed: float = ..., limit: float = ...
     ) -> None: ...
     def set_joint_limits(self, id: JointId, lower: Optional[float], upper: Optional[float]) -> None:
-        """Of hinges [rad, -π to π] and sliders [m]. Raises InputError, StaleIdError."""
+        """Of hinges and screws [rad] and sliders [m]. Raises InputError, StaleIdError."""
+    @overload
+    def set_joint_servo(self, id: JointId, description: JointServo, /) -> None:
+        """Of hinges, sliders and screws: what it drives to from now on. Raises InputError, StaleIdError."""
+    @overload
+    def set_joint_servo(
+        self, id: JointId, position: float = ..., speed: float = ..., stiffness: float = ..., damping: float = ...,
+        limit: float = ...
+    ) -> None: ...
+    def set_joint_axis(self, id: JointId, index: int, axis: JointAxis) -> None:
+        """All that acts along a free axis from now on. Raises InputError, StaleIdError."""
     def __contains__(self, id: Union[BodyId, JointId]) -> bool: ...
     gravity: _Vector
     """[m/s², W]; a change wakes every body. Raises InputError."""
@@ -2110,6 +2356,10 @@ class World:
         """[1/s]"""
     def angular_damping(self, id: BodyId) -> float:
         """[1/s]"""
+    def set_locked(self, id: BodyId, axes: Sequence[Union[JointAlong, str]]) -> None:
+        """Along and about which axes of W it does not move; none = it is free. Raises InputError, StaleIdError."""
+    def locked(self, id: BodyId) -> tuple[JointAlong, ...]:
+        """Ascending."""
     def set_user_data(self, id: BodyId, data: int) -> None:
         """A number of the user's own, 0 to 2⁶⁴ - 1."""
     def user_data(self, id: BodyId) -> int:

@@ -47,6 +47,8 @@ inline constexpr const char* enum_name<EventLevel> = "EventLevel";
 template <>
 inline constexpr const char* enum_name<JointKind> = "JointKind";
 template <>
+inline constexpr const char* enum_name<JointAlong> = "JointAlong";
+template <>
 inline constexpr const char* enum_name<Preset> = "Preset";
 template <>
 inline constexpr const char* enum_name<BroadPhaseKind> = "BroadPhaseKind";

@@ -87,7 +87,12 @@ void bindEnums(py::module_& module) {
                         "What happened.");
     bindEnum<EventLevel>(module, {"none", "changes", "all"},
                          "Which events a world collects; each level has those before it.");
-    bindEnum<JointKind>(module, {"distance", "rope", "ball", "hinge", "slider", "fixed"}, "What a joint keeps.");
+    bindEnum<JointKind>(module,
+                        {"distance", "rope", "ball", "hinge", "slider", "fixed", "universal", "planar", "cylindrical",
+                         "screw", "generic", "gear", "rack", "mimic"},
+                        "What a joint keeps.");
+    bindEnum<JointAlong>(module, {"x", "y", "z", "turn_x", "turn_y", "turn_z"},
+                         "Along or about which axis of a joint's frame A can move relative to B.");
     bindEnum<Touch>(module, {"never", "always"}, "Whether two bodies may touch.");
     bindEnum<TableEnd>(module, {"hold", "repeat"}, "What a table of motion does after its last time.");
     bindEnum<Baseline>(module, {"none", "at_rest"}, "How an accelerogram is brought to an end.");

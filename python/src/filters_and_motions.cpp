@@ -112,6 +112,14 @@ void bindBodyProperties(WorldClass& world) {
              "Rates at which its velocities decay [1/s], 0 to 1e6.")
         .def("linear_damping", on(&World::linearDamping), py::arg("id"), "[1/s]")
         .def("angular_damping", on(&World::angularDamping), py::arg("id"), "[1/s]")
+        .def(
+            "set_locked",
+            [](const PyWorld& self, BodyId id, const std::vector<JointAlong>& axes) { self.use().setLocked(id, axes); },
+            py::arg("id"), py::arg("axes"),
+            "Along and about which axes of W it does not move; none = it is free. Raises InputError, StaleIdError.")
+        .def(
+            "locked", [](const PyWorld& self, BodyId id) { return py::tuple(py::cast(self.use().locked(id))); },
+            py::arg("id"), "Ascending.")
         .def("set_user_data", on(&World::setUserData), py::arg("id"), py::arg("data"),
              "A number of the user's own, 0 to 2⁶⁴ - 1.")
         .def("user_data", on(&World::userData), py::arg("id"), "0 unless it was set.");

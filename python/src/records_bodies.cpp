@@ -108,6 +108,15 @@ void bindMaterials(py::module_& module) {
         .field("spinning_friction", &PairProperties::spinning_friction,
                "Likewise for the torque about the normal [m], ≥ 0.")
         .finish();
+    Record<SpeedCurve>(module, "SpeedCurve",
+                       "A value that depends on a speed: on straight lines between points, constant beyond them.")
+        .field("speeds", &SpeedCurve::speeds, "[m/s], ≥ 0, ascending; none = the property does not depend on speed.")
+        .field("values", &SpeedCurve::values, "As many.")
+        .finish();
+    Record<PairLaw>(module, "PairLaw", "How properties of a pair depend on the velocity at a contact.")
+        .field("restitution", &PairLaw::restitution, "Over the speed with which they close; values 0 to 1.")
+        .field("friction", &PairLaw::friction, "Kinetic friction over the speed with which they slide.")
+        .finish();
 }
 
 void bindDescriptions(py::module_& module) {
@@ -138,6 +147,7 @@ void bindDescriptions(py::module_& module) {
         .field("pivot", &BodyDescription::pivot, "Of the motion [m, frame of the shape].")
         .field("surface_velocity", &BodyDescription::surface_velocity,
                "Of a fixed body: with which its surface runs over it [m/s, frame of the shape].")
+        .field("locked", &BodyDescription::locked, "Axes of W along and about which a dynamic body does not move.")
         .finish();
     Record<SpringDescription>(module, "SpringDescription", "A damped spring between two points.")
         .field("a", &SpringDescription::a, "First body.")
@@ -150,11 +160,41 @@ void bindDescriptions(py::module_& module) {
         .finish(1);
 }
 
-void bindJoints(py::module_& module) {
-    Record<JointMotor>(module, "JointMotor", "Drives a hinge or a slider at a speed, as far as its force reaches.")
+void bindJointAxes(py::module_& module) {
+    Record<JointMotor>(module, "JointMotor", "Drives a free axis at a speed, as far as its force reaches.")
         .field("speed", &JointMotor::speed, "Of A relative to B about or along the axis [rad/s or m/s].")
         .field("limit", &JointMotor::limit, "Largest torque or force [N·m or N], ≥ 0.")
         .finish();
+    Record<JointServo>(module, "JointServo",
+                       "Drives a free axis to a position, at a speed, or both; stable whatever the gains are.")
+        .field("position", &JointServo::position, "Wanted [rad or m].")
+        .field("speed", &JointServo::speed, "Wanted [rad/s or m/s].")
+        .field("stiffness", &JointServo::stiffness,
+               "Gain of the position [N·m/rad or N/m], 0 to 1e30; 0 = it drives a speed only.")
+        .field("damping", &JointServo::damping, "Gain of the speed [N·m·s/rad or N·s/m], 0 to 1e30.")
+        .field("limit", &JointServo::limit, "Largest torque or force [N·m or N], ≥ 0.")
+        .finish()
+        .attr("no_limit") = JointServo::no_limit;
+    Record<JointSpring>(module, "JointSpring", "Pulls a free axis to a position; stable whatever the stiffness is.")
+        .field("stiffness", &JointSpring::stiffness, "[N·m/rad or N/m], 0 to 1e30")
+        .field("rest", &JointSpring::rest, "Position without force [rad or m].")
+        .finish();
+    Record<JointAxis>(module, "JointAxis", "What acts along or about one free axis of a joint.")
+        .field("along", &JointAxis::along, "Of generic joints: which axis is free.")
+        .field("lower", &JointAxis::lower, "Least position [rad or m].")
+        .field("upper", &JointAxis::upper, "Greatest position [rad or m], ≥ lower.")
+        .field("restitution", &JointAxis::restitution, "Part of the speed with which a limit throws back, 0 to 1.")
+        .field("motor", &JointAxis::motor, "Drives at a speed; an axis has a motor or a servo.")
+        .field("servo", &JointAxis::servo, "Drives to a position or at a speed.")
+        .field("spring", &JointAxis::spring, "Pulls to a position.")
+        .field("damping", &JointAxis::damping, "Force per speed [N·m·s/rad or N·s/m], 0 to 1e30.")
+        .field("friction", &JointAxis::friction, "Largest torque or force of dry friction [N·m or N], ≥ 0.")
+        .field("rotor_inertia", &JointAxis::rotor_inertia, "Of what turns with the axis [kg·m² or kg], 0 to 1e30.")
+        .finish();
+}
+
+void bindJoints(py::module_& module) {
+    bindJointAxes(module);
     Record<JointDescription>(module, "JointDescription", "How a joint begins, in W as the bodies stand then.")
         .field("kind", &JointDescription::kind, "What it keeps.")
         .field("a", &JointDescription::a, "First body.")
@@ -162,32 +202,56 @@ void bindJoints(py::module_& module) {
         .field("anchor", &JointDescription::anchor,
                "Where they are joined, of distances and ropes the point of A [m, W].")
         .field("anchor_b", &JointDescription::anchor_b, "Of distances and ropes: the point of B or the world [m, W].")
-        .field("axis", &JointDescription::axis, "Of hinges and sliders, of any length above 0 [W].")
+        .field("axis", &JointDescription::axis, "Of any length above 0 [W]; of planar joints the normal.")
+        .field("axis_2", &JointDescription::axis_2,
+               "Of universal, planar, generic and ball joints: not along axis [W].")
         .field("length", &JointDescription::length,
                "Of distances and ropes [m], > 0; otherwise the distance at the beginning.")
-        .field("lower", &JointDescription::lower, "Of hinges [rad] and sliders [m]: least position.")
-        .field("upper", &JointDescription::upper, "Of hinges [rad] and sliders [m]: greatest position.")
-        .field("motor", &JointDescription::motor, "Of hinges and sliders.")
+        .field("lead", &JointDescription::lead, "Of screws: displacement per turn [m].")
+        .field("lower", &JointDescription::lower, "Of hinges, sliders and screws, as in JointAxis.")
+        .field("upper", &JointDescription::upper, "Of hinges, sliders and screws, as in JointAxis.")
+        .field("restitution", &JointDescription::restitution, "Of hinges, sliders and screws, as in JointAxis.")
+        .field("motor", &JointDescription::motor, "Of hinges, sliders and screws, as in JointAxis.")
+        .field("servo", &JointDescription::servo, "Of hinges, sliders and screws, as in JointAxis.")
+        .field("spring", &JointDescription::spring, "Of hinges, sliders and screws, as in JointAxis.")
+        .field("damping", &JointDescription::damping, "Of hinges, sliders and screws, as in JointAxis.")
+        .field("friction", &JointDescription::friction, "Of hinges, sliders and screws, as in JointAxis.")
+        .field("rotor_inertia", &JointDescription::rotor_inertia, "Of hinges, sliders and screws, as in JointAxis.")
+        .field("cone", &JointDescription::cone, "Of balls: largest angle between the axes of A and B [rad], 0 to π.")
+        .field("axes", &JointDescription::axes,
+               "What acts along the free axes of other joints; of generic ones which are free.")
         .field("break_force", &JointDescription::break_force, "Above which the joint breaks [N], > 0.")
         .field("break_torque", &JointDescription::break_torque, "Above which it breaks [N·m], > 0.")
         .field("collide", &JointDescription::collide, "Whether the two bodies may touch each other.")
+        .field("first", &JointDescription::first, "Of gears, racks and mimics: a joint.")
+        .field("second", &JointDescription::second, "The joint that follows it.")
+        .field("first_axis", &JointDescription::first_axis, "Which free axis of the first.")
+        .field("second_axis", &JointDescription::second_axis, "Which free axis of the second.")
+        .field("ratio", &JointDescription::ratio,
+               "Of gears: opposite turns per turn; of racks [m/rad] and mimics: position per position.")
         .finish()
         .attr("infinite") = JointDescription::infinite;
     Record<JointInfo>(module, "JointInfo", "A joint as it was after the last step.")
         .field("kind", &JointInfo::kind, "What it keeps.")
-        .field("a", &JointInfo::a, "First body.")
-        .field("b", &JointInfo::b, "Second body; None = the world.")
+        .field("a", &JointInfo::a, "First body; of gears, racks and mimics that of the first joint.")
+        .field("b", &JointInfo::b,
+               "Second body, None = the world; of gears, racks and mimics the second joint's first.")
         .field("anchor_a", &JointInfo::anchor_a, "The point of A [m, W].")
         .field("anchor_b", &JointInfo::anchor_b, "The point of B or of the world [m, W].")
-        .field("axis", &JointInfo::axis, "Of hinges and sliders, that of B: unit, W.")
-        .field("position", &JointInfo::position, "Angle [rad], displacement or length [m].")
+        .field("axis", &JointInfo::axis, "That of B: unit, W.")
+        .field("position", &JointInfo::position,
+               "Of the first free axis; of distances and ropes their length [rad or m].")
         .field("speed", &JointInfo::speed, "Its rate [rad/s or m/s].")
         .field("error", &JointInfo::error, "How far the joint is from what it keeps [m or rad].")
         .field("impulse", &JointInfo::impulse, "That A received at its point in the step [N·s, W].")
         .field("angular_impulse", &JointInfo::angular_impulse, "That A received besides [N·m·s, W].")
         .field("force", &JointInfo::force, "The impulse divided by the time step [N, W].")
         .field("torque", &JointInfo::torque, "The angular impulse divided by the time step [N·m, W].")
-        .finish(13);
+        .field("positions", &JointInfo::positions, "Of the free axes [rad or m]; angles count on over turns.")
+        .field("speeds", &JointInfo::speeds, "Their rates [rad/s or m/s].")
+        .field("redundant", &JointInfo::redundant,
+               "How many of its conditions followed from those of others in the last step.")
+        .finish(16);
 }
 
 }  // namespace

@@ -53,6 +53,7 @@ void bindSceneBodies(py::module_& module) {
         .field("pivot", &B::pivot, "Of the motion [m, frame of the shape].")
         .field("surface_velocity", &B::surface_velocity,
                "Of a fixed body: with which its surface runs over it [m/s, frame of the shape].")
+        .field("locked", &B::locked, "Axes of W along and about which a dynamic body does not move.")
         .finish(2);
     Record<SceneException>(module, "SceneException",
                            "An exception of two bodies of a scene from what their groups say.")
@@ -70,6 +71,8 @@ void bindSceneBodies(py::module_& module) {
         .field("a", &SceneJoint::a, "Index in Scene.bodies.")
         .field("b", &SceneJoint::b, "Index in Scene.bodies; None = the world.")
         .field("joint", &SceneJoint::joint, "All else, as the bodies stand at the beginning.")
+        .field("first", &SceneJoint::first, "Of gears, racks and mimics: index of an earlier one in Scene.joints.")
+        .field("second", &SceneJoint::second, "Likewise: the joint that follows it.")
         .finish(3);
     using S = SceneSpring;
     Record<S>(module, "SceneSpring", "A spring of a scene.")
@@ -121,6 +124,7 @@ void bindScene(py::module_& module) {
         .field("materials", &Scene::materials, "What bodies are made of.")
         .field("default_pair", &Scene::default_pair, "Of materials that have no pair of their own.");
     pairsField(scene, "pairs", &Scene::pairs, "Names of two materials, and what holds where they touch.");
+    pairsField(scene, "pair_laws", &Scene::pair_laws, "Names of two of them, and what depends on speed there.");
     scene.field("filters", &Scene::filters, "Which bodies touch each other.")
         .field("frame_motion", &Scene::frame_motion, "The law by which the frame of the world moves; None = it rests.")
         .field("bodies", &Scene::bodies, "In the order of their numbers.")

@@ -59,7 +59,16 @@ void bindMaterials(WorldClass& world) {
                 self.use().setPairProperties(a, b, recordFrom<PairProperties>(args, kwargs));
             },
             py::arg("a"), py::arg("b"), "Properties where a touches b and b touches a. Raises InputError.")
-        .def("pair_properties", on(&World::pairProperties), py::arg("a"), py::arg("b"), "Raises InputError.");
+        .def("pair_properties", on(&World::pairProperties), py::arg("a"), py::arg("b"), "Raises InputError.")
+        .def(
+            "set_pair_law",
+            [](const PyWorld& self, MaterialId a, MaterialId b, const py::args& args, const py::kwargs& kwargs) {
+                self.use().setPairLaw(a, b, recordFrom<PairLaw>(args, kwargs));
+            },
+            py::arg("a"), py::arg("b"),
+            "Lets properties where a touches b depend on the velocity there. Raises InputError.")
+        .def("pair_law", on(&World::pairLaw), py::arg("a"), py::arg("b"),
+             "Without curves unless it was set. Raises InputError.");
 }
 
 void bindTies(WorldClass& world) {
@@ -88,9 +97,19 @@ void bindTies(WorldClass& world) {
             [](const PyWorld& self, JointId id, const py::args& args, const py::kwargs& kwargs) {
                 self.use().setJointMotor(id, recordFrom<JointMotor>(args, kwargs));
             },
-            py::arg("id"), "Of hinges and sliders; a limit of 0 switches it off. Raises InputError, StaleIdError.")
+            py::arg("id"),
+            "Of hinges, sliders and screws; a limit of 0 switches it off. Raises InputError, StaleIdError.")
         .def("set_joint_limits", on(&World::setJointLimits), py::arg("id"), py::arg("lower"), py::arg("upper"),
-             "Of hinges [rad, -π to π] and sliders [m]. Raises InputError, StaleIdError.")
+             "Of hinges and screws [rad] and sliders [m]. Raises InputError, StaleIdError.")
+        .def(
+            "set_joint_servo",
+            [](const PyWorld& self, JointId id, const py::args& args, const py::kwargs& kwargs) {
+                self.use().setJointServo(id, recordFrom<JointServo>(args, kwargs));
+            },
+            py::arg("id"),
+            "Of hinges, sliders and screws: what it drives to from now on. Raises InputError, StaleIdError.")
+        .def("set_joint_axis", on(&World::setJointAxis), py::arg("id"), py::arg("index"), py::arg("axis"),
+             "All that acts along a free axis from now on. Raises InputError, StaleIdError.")
         .def("__contains__", [](const PyWorld& self, BodyId id) { return self.use().contains(id); })
         .def("__contains__", [](const PyWorld& self, JointId id) { return self.use().contains(id); });
 }

@@ -185,3 +185,22 @@ def test_settings_are_frozen_and_replaced() -> None:
         assert value == field.get(settings)
         assert cairn.get_field(settings.replace(**{field.name: value}), field.name) == value
     assert cairn.preset_names() == tuple(preset.name for preset in cairn.Preset)
+
+
+def test_joints_have_axes_servos_and_couplings() -> None:
+    world = cairn.World()
+    steel = world.add_material("steel", 7800)
+    wheels = [world.add_body(cairn.Sphere(0.1), steel, position=[x, 0, 0]) for x in (0, 1)]
+    hinges = [world.add_joint("hinge", wheel, anchor=[x, 0, 0]) for x, wheel in enumerate(wheels)]
+    gear = world.add_joint("gear", first=hinges[0], second=hinges[1], ratio=2)
+    world.set_joint_servo(hinges[0], speed=1, damping=1e9)
+    world.step(20)
+    assert world.joint(hinges[1]).speed == pytest.approx(-2)
+    assert world.joint(gear).kind is cairn.JointKind.gear
+    axis = cairn.JointAxis("turn_y", spring=cairn.JointSpring(3), friction=1)
+    assert axis.along is cairn.JointAlong.turn_y
+    body = world.add_body(cairn.Sphere(0.1), steel, position=[3, 0, 0], locked=["x"])
+    world.add_joint("generic", body, axes=[axis])
+    assert world.locked(body) == (cairn.JointAlong.x,)
+    world.set_pair_law(steel, steel, friction=cairn.SpeedCurve([0, 1], [0.5, 0.2]))
+    assert world.pair_law(steel, steel).friction.values == (0.5, 0.2)

@@ -2,10 +2,58 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string_view>
 #include <utility>
 
 namespace cairn {
+
+namespace {
+
+std::pair<std::uint32_t, std::uint32_t> pairOf(const MaterialTable::LawOfPair& entry) {
+    return {entry.a, entry.b};
+}
+
+/// @throws InputError
+void validateCurve(const SpeedCurve& curve, double largest, std::string_view what) {
+    if (curve.speeds.size() != curve.values.size()) {
+        throw InputError(fmt::format("the {} curve of a pair has {} speeds and {} values; give as many", what,
+                                     curve.speeds.size(), curve.values.size()));
+    }
+    double last = -1;
+    for (const double speed : curve.speeds) {
+        if (!(speed >= 0 && speed > last && std::isfinite(speed))) {
+            throw InputError(
+                fmt::format("the {} curve of a pair has the speed {} m/s after {}; speeds must be finite, at "
+                            "least 0 and ascending",
+                            what, speed, last));
+        }
+        last = speed;
+    }
+    for (const double value : curve.values) {
+        if (value >= 0 && value <= largest) continue;
+        throw InputError(
+            fmt::format("the {} curve of a pair has the value {}; it must be within 0 and {}", what, value, largest));
+    }
+}
+
+}  // namespace
+
+void validateLaw(const PairLaw& law) {
+    validateCurve(law.restitution, 1, "restitution");
+    validateCurve(law.friction, std::numeric_limits<double>::max(), "friction");
+}
+
+double valueAt(const SpeedCurve& curve, double speed) {
+    const auto next = std::ranges::upper_bound(curve.speeds, speed);
+    if (next == curve.speeds.begin()) return curve.values.front();
+    if (next == curve.speeds.end()) return curve.values.back();
+    const auto i = static_cast<std::size_t>(next - curve.speeds.begin());
+    const double part = (speed - curve.speeds[i - 1]) / (curve.speeds[i] - curve.speeds[i - 1]);
+    return curve.values[i - 1] + part * (curve.values[i] - curve.values[i - 1]);
+}
 
 void validatePair(const PairProperties& p) {
     if (!(p.restitution >= 0 && p.restitution <= 1)) {
@@ -61,18 +109,44 @@ void MaterialTable::setDefault(const PairProperties& properties) {
     default_ = properties;
 }
 
-void MaterialTable::setPair(MaterialId a, MaterialId b, const PairProperties& properties) {
+void MaterialTable::requireKnown(MaterialId a, MaterialId b) const {
     for (const MaterialId id : {a, b}) {
-        if (!contains(id)) {
-            throw InputError(fmt::format("material {} is unknown; the world has {} materials",
-                                         static_cast<std::uint32_t>(id), materials_.size()));
-        }
+        if (contains(id)) continue;
+        throw InputError(fmt::format("material {} is unknown; the world has {} materials",
+                                     static_cast<std::uint32_t>(id), materials_.size()));
     }
+}
+
+void MaterialTable::setPair(MaterialId a, MaterialId b, const PairProperties& properties) {
+    requireKnown(a, b);
     validatePair(properties);
     const auto i = static_cast<std::size_t>(a);
     const auto j = static_cast<std::size_t>(b);
     pairs_[i * materials_.size() + j] = {true, properties};
     pairs_[j * materials_.size() + i] = {true, properties};
+}
+
+void MaterialTable::setLaw(MaterialId a, MaterialId b, const PairLaw& law) {
+    requireKnown(a, b);
+    validateLaw(law);
+    const auto low = std::min(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+    const auto high = std::max(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+    const auto at = std::ranges::lower_bound(laws_, std::pair(low, high), {}, pairOf);
+    const bool is_there = at != laws_.end() && pairOf(*at) == std::pair(low, high);
+    const bool is_none = law.restitution.speeds.empty() && law.friction.speeds.empty();
+    if (is_there && is_none) {
+        laws_.erase(at);
+    } else if (is_there) {
+        at->law = law;
+    } else if (!is_none) {
+        laws_.insert(at, {low, high, law});
+    }
+}
+
+const PairLaw* MaterialTable::law(std::uint32_t a, std::uint32_t b) const {
+    const std::pair<std::uint32_t, std::uint32_t> pair(std::min(a, b), std::max(a, b));
+    const auto at = std::ranges::lower_bound(laws_, pair, {}, pairOf);
+    return at != laws_.end() && pairOf(*at) == pair ? &at->law : nullptr;
 }
 
 }  // namespace cairn

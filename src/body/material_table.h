@@ -30,6 +30,17 @@ class MaterialTable {
         return entry.own ? entry.properties : default_;
     }
 
+    /// A law of a pair of its own.
+    struct LawOfPair {
+        std::uint32_t a = 0, b = 0;  ///< a ≤ b
+        PairLaw law;
+    };
+    /// A law without curves is none. @throws InputError
+    void setLaw(MaterialId a, MaterialId b, const PairLaw& law);
+    std::span<const LawOfPair> laws() const { return laws_; }  ///< by (a, b)
+    /// The law of a pair, or none.
+    const PairLaw* law(std::uint32_t a, std::uint32_t b) const;
+
     const PairProperties& defaultPair() const { return default_; }
     /// The properties that the pair has of its own, or none. @pre both indices are valid
     const PairProperties* ownPair(std::uint32_t a, std::uint32_t b) const {
@@ -45,9 +56,18 @@ class MaterialTable {
     std::vector<Material> materials_;
     std::vector<Entry> pairs_;  ///< [material × material]
     PairProperties default_;
+    std::vector<LawOfPair> laws_;  ///< by (a, b)
+
+    void requireKnown(MaterialId a, MaterialId b) const;
 };
 
 /// @throws InputError with the member, its value and what is allowed
 void validatePair(const PairProperties& properties);
+
+/// @throws InputError with the curve, its value and what is allowed
+void validateLaw(const PairLaw& law);
+
+/// The value of a curve. @pre it has points @param speed [m/s]
+double valueAt(const SpeedCurve& curve, double speed);
 
 }  // namespace cairn

@@ -66,9 +66,19 @@ double largestBeyond(std::span<const JointBlock> blocks) {
 void evaluateAll(std::span<const std::uint32_t> group, std::span<const Joint> joints, const BodyStorage& bodies,
                  double time_step, std::span<JointBlock> blocks) {
     for (std::size_t i = 0; i < group.size(); ++i) {
-        const Joint& joint = joints[group[i]];
-        blocks[i].joint = group[i];
-        evaluate(joint, poseOf(bodies, joint.a), poseOf(bodies, joint.b), time_step, blocks[i]);
+        evaluate(joints, group[i], bodies, time_step, blocks[i]);
+    }
+}
+
+/// How fast what turns with the free axes does so before the step.
+void noteRotors(std::span<Joint> joints, const BodyStorage& bodies) {
+    for (Joint& joint : joints) {
+        if (!isActive(joint, bodies.kind)) continue;
+        for (std::size_t i = 0; i < joint.free.size(); ++i) {
+            if (!(joint.free[i].rotor_inertia > 0)) continue;
+            const JointMotion motion = motionOf(joint, i, poseOf(bodies, joint.a), poseOf(bodies, joint.b));
+            joint.free[i].rotor_speed = rateOf(motion.row, joint.a, joint.b, bodies);
+        }
     }
 }
 
@@ -87,10 +97,15 @@ bool JointFlight::isResting(const Contact& contact, const BodyStorage& bodies, c
     return parting <= gained;
 }
 
-void JointFlight::noteKicks(const JointGroups& groups, std::size_t group, const BodyStorage& bodies,
-                            const Motion& motion) {
+void JointFlight::noteKicks(std::span<const Joint> joints, const JointGroups& groups, std::size_t group,
+                            const BodyStorage& bodies, const Motion& motion) {
     const auto pushed = [&](BodyIndex i) { return pushed_[i] != 0; };
     if (!motion.integration.exact_flight || std::ranges::any_of(groups.bodiesOf(group), pushed)) return;
+    // What friction or a servo holds would be moved by half of what they take back only afterwards.
+    const auto isHeld = [&](std::uint32_t j) {
+        return std::ranges::any_of(joints[j].free, [](const FreeAxis& axis) { return axis.resists(); });
+    };
+    if (std::ranges::any_of(groups.jointsOf(group), isHeld)) return;
     for (std::uint32_t k = groups.body_begin[group]; k < groups.body_begin[group + 1]; ++k) {
         const Vec3 acceleration = accelerationOf(bodies, groups.bodies[k], motion.acceleration, motion.gravity_damping);
         start_[k].half_kick = 0.5 * motion.time_step * acceleration;
@@ -102,8 +117,11 @@ void JointFlight::begin(std::span<Joint> joints, const JointGroups& groups, cons
     for (Joint& joint : joints) {
         joint.last_impulse = std::exchange(joint.impulse, Vec3::Zero());
         joint.last_angular_impulse = std::exchange(joint.angular_impulse, Vec3::Zero());
+        joint.fixed_impulse.setZero();
+        joint.fixed_angular_impulse.setZero();
     }
     if (groups.size() == 0) return;
+    noteRotors(joints, bodies);
     pushed_.assign(bodies.slots(), 0);
     for (const Contact& contact : motion.contacts) {
         if (isResting(contact, bodies, motion)) pushed_[contact.a] = pushed_[contact.b] = 1;
@@ -116,7 +134,7 @@ void JointFlight::begin(std::span<Joint> joints, const JointGroups& groups, cons
             const BodyIndex i = groups.bodies[k];
             start_[k] = {{bodies.position[i], bodies.orientation[i]}, {bodies.v[i], bodies.w[i]}, Vec3::Zero()};
         }
-        noteKicks(groups, g, bodies, motion);
+        noteKicks(joints, groups, g, bodies, motion);
         const std::span<const std::uint32_t> of_group = groups.jointsOf(g);
         evaluateAll(of_group, joints, bodies, motion.time_step,
                     std::span(blocks_).subspan(groups.joint_begin[g], of_group.size()));
@@ -145,7 +163,7 @@ void JointFlight::setMasses(const Flight& flight, const BodyStorage& bodies) {
 void JointFlight::fly(const Flight& flight, std::span<Joint> joints, BodyStorage& bodies,
                       const IntegrationSettings& settings) {
     setMasses(flight, bodies);
-    system_.begin(flight.bodies, flight.blocks);
+    system_.begin(flight.bodies, flight.blocks, JointSystem::Rows::rigid);
     system_.factorise(response_);
     velocity_.resize(flight.bodies.size());
     for (std::size_t k = 0; k < velocity_.size(); ++k) {
@@ -176,7 +194,7 @@ void JointFlight::fly(const Flight& flight, std::span<Joint> joints, BodyStorage
         moveAgain(flight, bodies, settings);
     }
     if (!(left <= large_error)) flyWithout(flight, bodies, settings);
-    report(flight, joints);
+    report(flight, bodies, joints);
     // The velocity stage gives the whole kick.
     for (std::size_t k = 0; k < flight.bodies.size(); ++k) bodies.v[flight.bodies[k]] -= flight.start[k].half_kick;
     moveBack(flight, joints, bodies);
@@ -196,12 +214,9 @@ void JointFlight::flyWithout(const Flight& flight, BodyStorage& bodies, const In
     moveAgain(flight, bodies, settings);
 }
 
-void JointFlight::report(const Flight& flight, std::span<Joint> joints) const {
-    std::size_t row = 0;
-    for (JointBlock& block : flight.blocks) {
-        for (std::uint32_t i = 0; i < block.size; ++i) block.impulse[i] = received_[row++];
-        reportImpulses(block, joints[block.joint]);
-    }
+void JointFlight::report(const Flight& flight, const BodyStorage& bodies, std::span<Joint> joints) const {
+    system_.report(received_);
+    for (const JointBlock& block : flight.blocks) reportImpulses(block, bodies, joints[block.joint]);
 }
 
 void JointFlight::moveAgain(const Flight& flight, BodyStorage& bodies, const IntegrationSettings& settings) const {
@@ -263,7 +278,7 @@ void JointFlight::moveBack(const Flight& flight, std::span<const Joint> joints, 
             response_[k].inertia_inv = bodies.inertiaInv_W[flight.bodies[k]];
             velocity_[k] = {};
         }
-        system_.begin(flight.bodies, now_);
+        system_.begin(flight.bodies, now_, JointSystem::Rows::rigid);
         system_.factorise(response_);
         for (double& impulse : impulses_) impulse *= -part;
         system_.solve(impulses_);

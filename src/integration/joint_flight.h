@@ -21,7 +21,7 @@ namespace cairn {
 /// doi:10.1016/0021-9991(83)90014-1
 ///
 /// With exact flight half of a step's gravity acts on the flight, which makes the method one of second order. Groups
-/// that rest on something fly without, or they would be moved into it.
+/// that rest on something, or that friction, springs or servos hold, fly without, or they would be moved against it.
 class JointFlight {
   public:
     /// How the bodies of joints move in a step.
@@ -56,10 +56,11 @@ class JointFlight {
 
     /// Whether a contact of the last step pushed and is not parting as after an impact.
     static bool isResting(const Contact& contact, const BodyStorage& bodies, const Motion& motion);
-    void noteKicks(const JointGroups& groups, std::size_t group, const BodyStorage& bodies, const Motion& motion);
+    void noteKicks(std::span<const Joint> joints, const JointGroups& groups, std::size_t group,
+                   const BodyStorage& bodies, const Motion& motion);
     void fly(const Flight& flight, std::span<Joint> joints, BodyStorage& bodies, const IntegrationSettings& settings);
     void flyWithout(const Flight& flight, BodyStorage& bodies, const IntegrationSettings& settings);
-    void report(const Flight& flight, std::span<Joint> joints) const;
+    void report(const Flight& flight, const BodyStorage& bodies, std::span<Joint> joints) const;
     void moveAgain(const Flight& flight, BodyStorage& bodies, const IntegrationSettings& settings) const;
     double keepBounds(const Flight& flight);
     void addResponse(double impulse);

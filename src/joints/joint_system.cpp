@@ -18,14 +18,45 @@ std::uint32_t JointSystem::memberOf(BodyIndex body) const {
     return at != members_.end() && *at == body ? static_cast<std::uint32_t>(at - members_.begin()) : none;
 }
 
-void JointSystem::begin(std::span<const BodyIndex> members, std::span<JointBlock> blocks) {
+void JointSystem::addEnd(BodyIndex body, const Vec3& linear, const Vec3& angular) {
+    const std::uint32_t member = memberOf(body);
+    if (member != none) ends_.push_back({member, linear, angular, {}});
+}
+
+void JointSystem::addRow(const JointBlock& block, const JointRow& row) {
+    const auto ends = static_cast<std::uint32_t>(ends_.size());
+    addEnd(block.a, row.linear, row.angular_a);
+    addEnd(block.b, -row.linear, row.angular_b);
+    rows_.push_back({ends, static_cast<std::uint32_t>(ends_.size())});
+}
+
+void JointSystem::addCoupling(const JointBlock& block) {
+    const auto ends = static_cast<std::uint32_t>(ends_.size());
+    for (const RowEnd& end : block.ends) addEnd(end.body, end.linear, end.angular);
+    rows_.push_back({ends, static_cast<std::uint32_t>(ends_.size())});
+}
+
+void JointSystem::begin(std::span<const BodyIndex> members, std::span<JointBlock> blocks, Rows which) {
     members_ = members;
     blocks_ = blocks;
+    which_ = which;
     rows_.clear();
+    ends_.clear();
+    block_end_.clear();
     for (const JointBlock& block : blocks) {
-        const std::uint32_t a = memberOf(block.a);
-        const std::uint32_t b = memberOf(block.b);
-        for (std::uint32_t i = 0; i < block.size; ++i) rows_.push_back({block.rows[i], a, b, {}, {}});
+        if (!block.ends.empty()) {
+            addCoupling(block);
+        } else {
+            for (std::uint32_t i = 0; i < block.size; ++i) addRow(block, block.rows[i]);
+        }
+        for (const BoundRow& bound : block.bound) {
+            if (!bound.is_linear || which == Rows::rigid) continue;
+            addRow(block, bound.row);
+            rows_.back().softness = bound.softness;
+            // What it received before in this step counts.
+            rows_.back().target = bound.highest - bound.softness * bound.impulse;
+        }
+        block_end_.push_back(static_cast<std::uint32_t>(rows_.size()));
     }
     findProfile();
     changes_.resize(members.size());
@@ -38,20 +69,19 @@ void JointSystem::findProfile() {
     first_row_.assign(members_.size(), none);
     std::size_t entries = 0;
     std::uint32_t block_begin = 0;
-    for (const JointBlock& block : blocks_) {
-        if (block.size == 0) continue;
+    for (const std::uint32_t block_end : block_end_) {
+        if (block_end == block_begin) continue;
         std::uint32_t first = block_begin;
-        for (const std::uint32_t member : {rows_[block_begin].a, rows_[block_begin].b}) {
-            if (member == none) continue;
-            first_row_[member] = std::min(first_row_[member], block_begin);
-            first = std::min(first, first_row_[member]);
+        for (const End& end : endsOf(rows_[block_begin])) {
+            first_row_[end.member] = std::min(first_row_[end.member], block_begin);
+            first = std::min(first, first_row_[end.member]);
         }
-        for (std::uint32_t i = block_begin; i < block_begin + block.size; ++i) {
+        for (std::uint32_t i = block_begin; i < block_end; ++i) {
             rows_[i].first = first;
             rows_[i].begin = entries;
             entries += i - first;
         }
-        block_begin += block.size;
+        block_begin = block_end;
     }
     lower_.resize(entries);
 }
@@ -64,23 +94,21 @@ Twist JointSystem::perImpulse(std::uint32_t member, const Vec3& linear, const Ve
 /// x·M⁻¹·yᵀ.
 double JointSystem::coupling(const Row& x, const Row& y) const {
     double sum = 0;
-    if (x.a != none && x.a == y.a) sum += x.j.linear.dot(y.per_a.v) + x.j.angular_a.dot(y.per_a.w);
-    if (x.a != none && x.a == y.b) sum += x.j.linear.dot(y.per_b.v) + x.j.angular_a.dot(y.per_b.w);
-    if (x.b != none && x.b == y.a) sum += x.j.angular_b.dot(y.per_a.w) - x.j.linear.dot(y.per_a.v);
-    if (x.b != none && x.b == y.b) sum += x.j.angular_b.dot(y.per_b.w) - x.j.linear.dot(y.per_b.v);
+    for (const End& to : endsOf(x)) {
+        for (const End& by : endsOf(y)) {
+            if (to.member == by.member) sum += to.linear.dot(by.per.v) + to.angular.dot(by.per.w);
+        }
+    }
     return sum;
 }
 
 void JointSystem::factorise(std::span<const BodyResponse> response) {
     response_.assign(response.begin(), response.end());
-    for (Row& row : rows_) {
-        row.per_a = perImpulse(row.a, row.j.linear, row.j.angular_a);
-        row.per_b = perImpulse(row.b, -row.j.linear, row.j.angular_b);
-    }
+    for (End& end : ends_) end.per = perImpulse(end.member, end.linear, end.angular);
     for (std::uint32_t i = 0; i < rows_.size(); ++i) {
         const Row& row = rows_[i];
         double* const l = lower_.data() + row.begin;
-        const double diagonal = coupling(row, row);
+        const double diagonal = coupling(row, row) + row.softness;
         for (std::uint32_t j = row.first; j < i; ++j) {
             const Row& other = rows_[j];
             const double* const m = lower_.data() + other.begin;
@@ -118,24 +146,41 @@ void JointSystem::solve(std::span<double> x) const {
 
 void JointSystem::rates(std::span<const Twist> velocity, std::span<double> out) const {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-        const Row& row = rows_[i];
         double rate = 0;
-        if (row.a != none) rate += row.j.linear.dot(velocity[row.a].v) + row.j.angular_a.dot(velocity[row.a].w);
-        if (row.b != none) rate += row.j.angular_b.dot(velocity[row.b].w) - row.j.linear.dot(velocity[row.b].v);
+        for (const End& end : endsOf(rows_[i])) {
+            rate += end.linear.dot(velocity[end.member].v) + end.angular.dot(velocity[end.member].w);
+        }
         out[i] = rate;
     }
 }
 
+void JointSystem::subtractTargets(std::span<double> rates) const {
+    for (std::size_t i = 0; i < rows_.size(); ++i) rates[i] -= rows_[i].target;
+}
+
 void JointSystem::addImpulses(std::span<const double> impulses, std::span<Twist> velocity) const {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-        const Row& row = rows_[i];
-        if (row.a != none) {
-            velocity[row.a].v += impulses[i] * row.per_a.v;
-            velocity[row.a].w += impulses[i] * row.per_a.w;
+        for (const End& end : endsOf(rows_[i])) {
+            velocity[end.member].v += impulses[i] * end.per.v;
+            velocity[end.member].w += impulses[i] * end.per.w;
         }
-        if (row.b != none) {
-            velocity[row.b].v += impulses[i] * row.per_b.v;
-            velocity[row.b].w += impulses[i] * row.per_b.w;
+    }
+}
+
+std::uint32_t JointSystem::redundantOf(std::size_t block) const {
+    const auto begin = pivot_inv_.begin() + (block == 0 ? 0 : block_end_[block - 1]);
+    return static_cast<std::uint32_t>(std::count(begin, pivot_inv_.begin() + block_end_[block], 0.0));
+}
+
+void JointSystem::report(std::span<const double> impulses) const {
+    std::size_t row = 0;
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+        JointBlock& block = blocks_[k];
+        for (std::uint32_t i = 0; i < block.size; ++i) block.impulse[i] = impulses[row++];
+        block.redundant = redundantOf(k);
+        if (which_ == Rows::rigid) continue;
+        for (BoundRow& bound : block.bound) {
+            if (bound.is_linear) bound.impulse += impulses[row++];
         }
     }
 }

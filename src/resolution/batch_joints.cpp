@@ -46,6 +46,7 @@ void BatchJointGroup::gather(std::span<JointBlock> blocks, std::vector<LocalBody
                              std::span<const std::uint32_t> local_of_slot) {
     members_.clear();
     for (const JointBlock& block : blocks) {
+        // The bodies of a coupling are those of the joints that it couples.
         for (const BodyIndex body : {block.a, block.b}) {
             // Bodies that cannot move are not among the batch's yet.
             if (body != Joint::world && local_of_slot[body] < bodies.size()) members_.push_back(body);
@@ -55,11 +56,26 @@ void BatchJointGroup::gather(std::span<JointBlock> blocks, std::vector<LocalBody
     members_.erase(std::unique(members_.begin(), members_.end()), members_.end());
     local.clear();
     for (const BodyIndex body : members_) local.push_back(local_of_slot[body]);
-    system.begin(members_, blocks);
+    system.begin(members_, blocks, JointSystem::Rows::all);
     received_.assign(system.rows(), 0);
     factorise(bodies);
     project(bodies);
     projected_ = received_;
+    throwBack(bodies);
+}
+
+/// A limit that is reached in this step throws back what comes fast.
+void BatchJointGroup::throwBack(std::span<const LocalBody> bodies) {
+    for (JointBlock& block : system.blocks()) {
+        for (BoundRow& bound : block.bound) {
+            if (!(bound.restitution > 0)) continue;
+            const double rate = rateOf(block, bound.row, bodies);
+            if (!(std::abs(rate) > bound.slowest)) continue;
+            const double back = -bound.restitution * rate;
+            if (rate < bound.lowest) bound.lowest = std::min(back, bound.highest);
+            if (rate > bound.highest) bound.highest = std::max(back, bound.lowest);
+        }
+    }
 }
 
 void BatchJointGroup::factorise(std::span<const LocalBody> bodies) {
@@ -75,6 +91,7 @@ void BatchJointGroup::project(std::span<LocalBody> bodies) {
     for (std::size_t i = 0; i < local.size(); ++i) velocity_[i] = twistOf(bodies[local[i]]);
     impulses_.resize(system.rows());
     system.rates(velocity_, impulses_);
+    system.subtractTargets(impulses_);
     // At rest nothing is struck, so that what sleeps sleeps on; what is not finite must not spread.
     const auto still = [](double rate) { return rate == 0; };
     const auto finite = [](double rate) { return std::isfinite(rate); };
@@ -114,7 +131,8 @@ double BatchJointGroup::resolveBound(const JointBlock& block, BoundRow& bound, s
     if (!(per_impulse > 0)) return 0;
     const double without = rate - per_impulse * bound.impulse;
     const double wanted = std::clamp(without, bound.lowest, bound.highest);
-    const double impulse = std::clamp((wanted - without) / per_impulse, -bound.strongest, bound.strongest);
+    const double impulse =
+        std::clamp((wanted - without) / (per_impulse + bound.softness), -bound.strongest, bound.strongest);
     const double change = impulse - bound.impulse;
     if (change == 0) return 0;
     bound.impulse = impulse;
@@ -130,7 +148,7 @@ double BatchJointGroup::resolveBounds(std::span<LocalBody> bodies) {
     double largest = 0;
     for (JointBlock& block : system.blocks()) {
         for (std::uint32_t i = 0; i < block.bounds; ++i) {
-            largest = std::max(largest, resolveBound(block, block.bound[i], bodies));
+            if (!block.bound[i].is_linear) largest = std::max(largest, resolveBound(block, block.bound[i], bodies));
         }
     }
     return largest;
@@ -140,6 +158,7 @@ void BatchJointGroup::settle(std::span<Twist> direct) {
     for (const JointBlock& block : system.blocks()) {
         for (std::uint32_t i = 0; i < block.bounds; ++i) {
             const BoundRow& bound = block.bound[i];
+            if (bound.is_linear) continue;
             system.addAlong(block, bound.row, bound.impulse, direct);
         }
     }
@@ -150,10 +169,7 @@ void BatchJointGroup::settle(std::span<Twist> direct) {
 }
 
 void BatchJointGroup::report() const {
-    std::size_t row = 0;
-    for (JointBlock& block : system.blocks()) {
-        for (std::uint32_t i = 0; i < block.size; ++i) block.impulse[i] = received_[row++];
-    }
+    system.report(received_);
 }
 
 void BatchJoints::gather(std::span<JointBlock> blocks, std::vector<LocalBody>& bodies,
@@ -165,7 +181,8 @@ void BatchJoints::gather(std::span<JointBlock> blocks, std::vector<LocalBody>& b
     for (std::size_t begin = 0; begin < blocks.size();) {
         std::size_t end = begin;
         while (end < blocks.size() && blocks[end].group == blocks[begin].group) {
-            has_bounds_ = has_bounds_ || blocks[end].bounds > 0;
+            const auto follows = [](const BoundRow& bound) { return !bound.is_linear; };
+            has_bounds_ = has_bounds_ || std::ranges::any_of(blocks[end].bound, follows);
             ++end;
         }
         if (count_ == groups_.size()) groups_.emplace_back();

@@ -1,6 +1,7 @@
 /// @file The joints of a batch under resolution. They hold at any time: an impulse at a contact of a jointed body
 /// changes all that is tied to it, and the contact's collision matrix says so. Sequential impulses with restitution
-/// then work on mechanisms as on single bodies. Ropes, limits and motors are resolved between the contacts.
+/// then work on mechanisms as on single bodies. So does what yields in proportion (springs, servos). Ropes, limits,
+/// motors and friction are resolved between the contacts.
 #pragma once
 
 #include <cstdint>
@@ -37,6 +38,7 @@ class BatchJointGroup {
     std::vector<std::uint32_t> local;  ///< [members] index of their LocalBody
 
   private:
+    void throwBack(std::span<const LocalBody> bodies);
     double rateOf(const JointBlock& block, const JointRow& row, std::span<const LocalBody> bodies);
     double resolveBound(const JointBlock& block, BoundRow& bound, std::span<LocalBody> bodies);
 

@@ -191,6 +191,10 @@ void JsonNode::fail(std::string_view text) const {
 }
 
 void JsonNode::expectKeys(std::initializer_list<std::string_view> allowed) const {
+    expectKeys(std::span(allowed.begin(), allowed.size()));
+}
+
+void JsonNode::expectKeys(std::span<const std::string_view> allowed) const {
     if (!value_->is_object()) {
         refuse(fmt::format("an object with the keys {}", fmt::join(allowed, ", ")));
     }

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -37,6 +38,8 @@ class JsonNode {
     JsonNode(const Json& value, std::string_view source) : value_(&value), source_(source) {}
 
     const Json& value() const { return *value_; }
+    /// Of the document, shown in messages.
+    std::string_view source() const { return source_; }
     /// Such as `bodies[3].shape.radius`; empty for the root.
     std::string path() const;
 
@@ -47,6 +50,7 @@ class JsonNode {
 
     // Each throws InputError if the value is of another type or out of the named range.
     void expectKeys(std::initializer_list<std::string_view> allowed) const;
+    void expectKeys(std::span<const std::string_view> allowed) const;
     void expectArray(std::string_view allowed) const;
     double number() const;
     double positive() const;

@@ -21,7 +21,8 @@ std::string knownMaterials(const SceneReading& reading) {
 
 /// @param inherited values of the members that are not given
 PairProperties readPair(const JsonNode& node, const PairProperties& inherited) {
-    node.expectKeys({"restitution", "static_friction", "kinetic_friction", "rolling_friction", "spinning_friction"});
+    node.expectKeys(
+        {"restitution", "static_friction", "kinetic_friction", "rolling_friction", "spinning_friction", "law"});
     PairProperties pair = inherited;
     if (const auto value = node.find("restitution")) {
         pair.restitution = value->nonNegative();
@@ -94,6 +95,18 @@ void checkBody(const JsonNode& node, const SceneBody& body, const SceneReading& 
 }
 
 /// Groups and what the body feels of its own.
+std::vector<JointAlong> readLocked(const JsonNode& node, const SceneBody& body) {
+    node.expectArray("an array of axes of the world that do not move");
+    std::vector<JointAlong> axes;
+    for (std::size_t i = 0; i < node.size(); ++i) {
+        const JointAlong along = readJointAlong(node.element(i));
+        if (std::ranges::find(axes, along) != axes.end()) node.element(i).fail("is given twice; give it once");
+        axes.push_back(along);
+    }
+    if (body.fixed && !axes.empty()) node.fail("is that of a fixed body, which moves along no axis; leave it out");
+    return axes;
+}
+
 void readOwnProperties(const JsonNode& node, const SceneReading& reading, SceneBody& body) {
     if (const auto groups = node.find("groups")) {
         groups->expectArray("an array of names of groups");
@@ -115,6 +128,7 @@ void readOwnProperties(const JsonNode& node, const SceneReading& reading, SceneB
         return number;
     };
     if (const auto value = node.find("sensor")) body.sensor = value->flag();
+    if (const auto value = node.find("locked")) body.locked = readLocked(*value, body);
     if (const auto value = node.find("gravity_factor")) {
         body.gravity_factor = checked(*value, [](double x) { requireGravityFactor(x); });
     }
@@ -135,7 +149,8 @@ SceneBody readBody(const JsonNode& node, const SceneReading& reading) {
                      "centre_of_mass",  "inertia",          "position",       "orientation",
                      "linear_velocity", "angular_velocity", "fixed",          "asleep",
                      "groups",          "sensor",           "gravity_factor", "linear_damping",
-                     "angular_damping", "user_data",        "motion",         "surface_velocity"});
+                     "angular_damping", "user_data",        "motion",         "surface_velocity",
+                     "locked"});
     SceneBody body;
     body.shape = readShape(node.required("shape", "an object"));
     const JsonNode material = node.required("material", "the name of a material");
@@ -187,7 +202,10 @@ void readMaterials(const JsonNode& node, SceneReading& reading) {
 void readContacts(const JsonNode& node, SceneReading& reading) {
     if (!node.value().is_object()) node.refuse("an object with the keys default and pairs such as oak/iron");
     Scene& scene = reading.scene;
-    if (const auto value = node.find("default")) scene.default_pair = readPair(*value, PairProperties{});
+    if (const auto value = node.find("default")) {
+        scene.default_pair = readPair(*value, PairProperties{});
+        if (const auto law = value->find("law")) law->fail("is of no pair; give laws to pairs such as oak/iron");
+    }
     std::set<std::pair<std::string, std::string>> seen;
     for (const auto& [key, value] : node.value().get_ref<const Json::object_t&>()) {
         if (key == "default") continue;
@@ -205,6 +223,7 @@ void readContacts(const JsonNode& node, SceneReading& reading) {
         if (!seen.insert(std::minmax(names.first, names.second)).second) {
             entry.fail("gives a pair that was given before; both orders of the names mean the same pair");
         }
+        if (const auto law = entry.find("law")) scene.pair_laws.emplace_back(names, readPairLaw(*law));
         scene.pairs.emplace_back(std::move(names), readPair(entry, scene.default_pair));
     }
 }

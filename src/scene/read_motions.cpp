@@ -1,18 +1,11 @@
 #include <fmt/format.h>
 
 #include "integration/motion_curve.h"
+#include "scene/number_table.h"
 #include "scene/scene_reading.h"
 
 namespace cairn {
 namespace {
-
-std::vector<double> readNumbers(const JsonNode& node) {
-    node.expectArray("an array of numbers");
-    std::vector<double> numbers;
-    numbers.reserve(node.size());
-    for (std::size_t i = 0; i < node.size(); ++i) numbers.push_back(node.element(i).number());
-    return numbers;
-}
 
 std::vector<Vec3> readVectors(const JsonNode& node) {
     node.expectArray("an array of vectors");
@@ -40,8 +33,17 @@ Motion readSine(const JsonNode& node) {
     return motion;
 }
 
-Motion readAccelerogram(const JsonNode& node, const JsonNode& accelerations) {
-    node.expectKeys({"type", "interval", "accelerations", "baseline", "pivot"});
+std::vector<Vec3> vectorsOf(const NumberTable& table, std::size_t column) {
+    std::vector<Vec3> vectors;
+    vectors.reserve(table.rows());
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        vectors.emplace_back(table.at(row, column), table.at(row, column + 1), table.at(row, column + 2));
+    }
+    return vectors;
+}
+
+/// @param samples accelerations [m/s²]
+Motion accelerogramOf(const JsonNode& node, const std::vector<Vec3>& samples) {
     const double interval = node.required("interval", "the time between two samples [s], above 0").positive();
     Baseline baseline = Baseline::none;
     if (const auto value = node.find("baseline")) {
@@ -49,7 +51,6 @@ Motion readAccelerogram(const JsonNode& node, const JsonNode& accelerations) {
         if (name != "none" && name != "at_rest") value->refuse("none or at_rest");
         baseline = name == "at_rest" ? Baseline::at_rest : Baseline::none;
     }
-    const std::vector<Vec3> samples = readVectors(accelerations);
     try {
         return integrateAccelerogram(interval, samples, baseline);
     } catch (const InputError& error) {
@@ -57,19 +58,52 @@ Motion readAccelerogram(const JsonNode& node, const JsonNode& accelerations) {
     }
 }
 
+Motion readAccelerogram(const JsonNode& node, const JsonNode& accelerations) {
+    node.expectKeys({"type", "interval", "accelerations", "baseline", "pivot"});
+    return accelerogramOf(node, readVectors(accelerations));
+}
+
+TableEnd readEnd(const JsonNode& node) {
+    const auto value = node.find("end");
+    if (!value) return TableEnd::hold;
+    const std::string name = value->text();
+    if (name != "hold" && name != "repeat") value->refuse("hold or repeat");
+    return name == "repeat" ? TableEnd::repeat : TableEnd::hold;
+}
+
+/// Times with displacements and maybe turns; or accelerations where an interval is given.
+Motion readTableFile(const JsonNode& node, const JsonNode& file) {
+    if (node.find("interval")) {
+        node.expectKeys({"type", "interval", "file", "baseline", "pivot"});
+        const NumberTable table = readNumberTable(file);
+        if (table.columns != 3) file.fail("must have three columns, the accelerations along x, y and z [m/s²]");
+        return accelerogramOf(node, vectorsOf(table, 0));
+    }
+    node.expectKeys({"type", "file", "end", "pivot"});
+    const NumberTable table = readNumberTable(file);
+    if (table.columns != 4 && table.columns != 7) {
+        file.fail(
+            "must have four columns, the time [s] and the displacement along x, y and z [m], or three more, the "
+            "rotation vector [rad]");
+    }
+    TableMotion motion;
+    for (std::size_t row = 0; row < table.rows(); ++row) motion.times.push_back(table.at(row, 0));
+    motion.displacements = vectorsOf(table, 1);
+    if (table.columns == 7) motion.turns = vectorsOf(table, 4);
+    motion.end = readEnd(node);
+    return motion;
+}
+
 Motion readTable(const JsonNode& node) {
     if (const auto accelerations = node.find("accelerations")) return readAccelerogram(node, *accelerations);
+    if (const auto file = node.find("file")) return readTableFile(node, *file);
     node.expectKeys({"type", "times", "displacements", "turns", "velocities", "end", "pivot"});
     TableMotion motion;
     motion.times = readNumbers(node.required("times", "an array of ascending times [s]"));
     if (const auto value = node.find("displacements")) motion.displacements = readVectors(*value);
     if (const auto value = node.find("turns")) motion.turns = readVectors(*value);
     if (const auto value = node.find("velocities")) motion.velocities = readVectors(*value);
-    if (const auto value = node.find("end")) {
-        const std::string name = value->text();
-        if (name != "hold" && name != "repeat") value->refuse("hold or repeat");
-        motion.end = name == "repeat" ? TableEnd::repeat : TableEnd::hold;
-    }
+    motion.end = readEnd(node);
     return motion;
 }
 

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "cairn/scene.h"
-#include "scene/joint_names.h"
 #include "scene/json_node.h"
 
 namespace cairn {
@@ -32,6 +31,11 @@ void readJoints(const JsonNode& node, SceneReading& reading);
 /// @throws InputError
 Shape readShape(const JsonNode& node);
 Quat readOrientation(const JsonNode& node);
+std::vector<double> readNumbers(const JsonNode& node);
+/// How properties of a pair depend on the velocity at a contact.
+PairLaw readPairLaw(const JsonNode& node);
+/// One of the names of the axes of joints.
+JointAlong readJointAlong(const JsonNode& node);
 /// A law of motion of a body or frame.
 Motion readMotion(const JsonNode& node);
 /// The name of a group that the scene has.

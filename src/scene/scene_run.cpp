@@ -77,6 +77,11 @@ MaterialIds addMaterials(const Scene& scene, World& world) {
             world.setPairProperties(findMaterial(ids, key.first), findMaterial(ids, key.second), properties);
         });
     }
+    for (const auto& [names, law] : scene.pair_laws) {
+        inContext(fmt::format("contacts '{}/{}'", names.first, names.second), [&, &key = names, &its = law] {
+            world.setPairLaw(findMaterial(ids, key.first), findMaterial(ids, key.second), its);
+        });
+    }
     return ids;
 }
 
@@ -117,6 +122,7 @@ BodyDescription describe(const SceneBody& body, const MaterialIds& materials, co
     description.motion = body.motion;
     description.pivot = body.pivot;
     description.surface_velocity = body.surface_velocity;
+    description.locked = body.locked;
     return description;
 }
 
@@ -139,11 +145,20 @@ void addSpring(const SceneSpring& spring, const std::vector<BodyId>& ids, World&
     world.addSpring(description);
 }
 
-void addJoint(const SceneJoint& joint, const std::vector<BodyId>& ids, World& world) {
+/// @param before ids of the joints that stand before it in the scene
+JointId addJoint(const SceneJoint& joint, const std::vector<BodyId>& ids, const std::vector<JointId>& before,
+                 World& world) {
     JointDescription description = joint.joint;
+    const auto coupled = [&](const std::optional<std::size_t>& index) {
+        if (*index < before.size()) return before[*index];
+        throw InputError(fmt::format("joint {} does not stand before this one", *index));
+    };
+    if (joint.first) description.first = coupled(joint.first);
+    if (joint.second) description.second = coupled(joint.second);
+    if (joint.first || joint.second) return world.addJoint(description);
     description.a = bodyId(ids, joint.a);
     description.b = joint.b ? std::optional(bodyId(ids, *joint.b)) : std::nullopt;
-    world.addJoint(description);
+    return world.addJoint(description);
 }
 
 /// True if the action is for a body that is no longer in the world.
@@ -202,8 +217,10 @@ SceneRun::SceneRun(const Scene& scene, const Settings& settings) : scene_(scene)
     for (std::size_t i = 0; i < scene_.springs.size(); ++i) {
         inContext(fmt::format("spring {}", i), [&] { addSpring(scene_.springs[i], ids_, world_); });
     }
+    std::vector<JointId> joints;
     for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-        inContext(fmt::format("joint {}", i), [&] { addJoint(scene_.joints[i], ids_, world_); });
+        inContext(fmt::format("joint {}", i),
+                  [&] { joints.push_back(addJoint(scene_.joints[i], ids_, joints, world_)); });
     }
 }
 

@@ -1,38 +1,22 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
 
 #include "cairn/scene.h"
-#include "scene/joint_names.h"
+#include "scene/joint_axis_names.h"
 #include "scene/json_node.h"
+#include "scene/scene_writing.h"
 
 namespace cairn {
 namespace {
 
-/// The shortest text that is read back as the same number.
-std::string number(double value) {
-    if (!std::isfinite(value)) {
-        throw InputError(fmt::format("a scene with the number {} cannot be written; numbers must be finite", value));
-    }
-    // Without the point JSON readers take minus zero for the whole number 0.
-    if (value == 0 && std::signbit(value)) return "-0.0";
-    return fmt::format("{}", value);
-}
-
-/// Tells minus zero from zero, so that what is left out is read back bit by bit.
-bool same(double a, double b) {
-    return a == b && std::signbit(a) == std::signbit(b);
-}
-
-bool isOmitted(const Vec3& v) {
-    return same(v.x(), 0) && same(v.y(), 0) && same(v.z(), 0);
-}
-
-std::string vector(const Vec3& v) {
-    return fmt::format("[{},{},{}]", number(v.x()), number(v.y()), number(v.z()));
-}
+using written::isOmitted;
+using written::number;
+using written::same;
+using written::vector;
 
 std::string text(const std::string& value) {
     try {
@@ -154,6 +138,13 @@ std::string ownText(const SceneBody& body) {
     if (!isOmitted(body.surface_velocity)) {
         out += fmt::format(R"(,"surface_velocity":{})", vector(body.surface_velocity));
     }
+    if (!body.locked.empty()) {
+        std::vector<std::string> names;
+        for (const JointAlong along : body.locked) {
+            names.emplace_back(jointAxisNames()[static_cast<std::size_t>(along)]);
+        }
+        out += fmt::format(R"(,"locked":{})", namesText(names));
+    }
     if (body.user_data != 0) out += fmt::format(R"(,"user_data":{})", body.user_data);
     return out;
 }
@@ -237,33 +228,14 @@ std::string contactsText(const Scene& scene) {
     if (!same(d.spinning_friction, 0)) out += fmt::format(R"(,"spinning_friction":{})", number(d.spinning_friction));
     out += "}";
     for (const auto& [names, pair] : scene.pairs) {
-        out += fmt::format(",\n{}:{}", text(names.first + "/" + names.second), pairText(pair, d));
+        std::string properties = pairText(pair, d);
+        const auto law = std::ranges::find(scene.pair_laws, names, [](const auto& entry) { return entry.first; });
+        if (law != scene.pair_laws.end()) {
+            properties.back() = properties.size() > 2 ? ',' : ' ';
+            properties += fmt::format(R"("law":{}}})", pairLawText(law->second));
+        }
+        out += fmt::format(",\n{}:{}", text(names.first + "/" + names.second), properties);
     }
-    return out + "}";
-}
-
-std::string jointText(const SceneJoint& scene_joint) {
-    const JointDescription& joint = scene_joint.joint;
-    std::string out =
-        fmt::format(R"({{"type":"{}","a":{})", jointNames()[static_cast<std::size_t>(joint.kind)], scene_joint.a);
-    const auto addNumber = [&out](std::string_view key, const std::optional<double>& value) {
-        if (value && std::isfinite(*value)) out += fmt::format(R"(,"{}":{})", key, number(*value));
-    };
-    if (scene_joint.b) out += fmt::format(R"(,"b":{})", *scene_joint.b);
-    if (!isOmitted(joint.anchor)) out += fmt::format(R"(,"anchor":{})", vector(joint.anchor));
-    if (joint.anchor_b) out += fmt::format(R"(,"anchor_b":{})", vector(*joint.anchor_b));
-    const bool has_axis = joint.kind == JointKind::hinge || joint.kind == JointKind::slider;
-    if (has_axis) out += fmt::format(R"(,"axis":{})", vector(joint.axis));
-    addNumber("length", joint.length);
-    addNumber("lower", joint.lower);
-    addNumber("upper", joint.upper);
-    if (joint.motor) {
-        out += fmt::format(R"(,"motor":{{"speed":{},"limit":{}}})", number(joint.motor->speed),
-                           number(joint.motor->limit));
-    }
-    addNumber("break_force", joint.break_force);
-    addNumber("break_torque", joint.break_torque);
-    if (joint.collide) out += R"(,"collide":true)";
     return out + "}";
 }
 

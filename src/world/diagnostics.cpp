@@ -6,6 +6,7 @@
 
 #include "activity/sleeping.h"
 #include "integration/integration.h"
+#include "joints/joint_kinds.h"
 #include "resolution/contact_law.h"
 #include "world/totals.h"
 
@@ -168,6 +169,11 @@ bool accountJoints(WorldState& world) {
     for (const Joint& joint : world.joints) {
         if (!isActive(joint, b.kind)) continue;
         any = true;
+        if (entryOf(joint.kind).uses.couples) {
+            d.fixed_impulse -= joint.fixed_impulse;
+            d.fixed_angular_impulse -= joint.fixed_angular_impulse;
+            continue;
+        }
         const bool a_moves = isMovable(b.kind, joint.a);
         if (a_moves == isMovable(b.kind, joint.b)) continue;
         const double sign = a_moves ? 1 : -1;

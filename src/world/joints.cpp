@@ -4,6 +4,8 @@
 #include <numeric>
 
 #include "activity/sleeping.h"
+#include "joints/joint_kinds.h"
+#include "world/couplings.h"
 
 namespace cairn {
 
@@ -19,20 +21,28 @@ void listExcluded(const WorldState& world, std::vector<BodyPair>& excluded) {
     std::ranges::sort(excluded);
 }
 
+bool isRunning(const FreeAxis& axis) {
+    return (axis.hasMotor() && axis.motor_speed != 0) || (axis.hasServo() && axis.servo_speed != 0);
+}
+
 /// A motor that runs keeps its bodies awake, however slowly it moves them, and so does a law that carries them.
 bool isDriven(const WorldState& world, std::size_t group) {
     const std::vector<std::uint8_t>& carried = world.data.carried;
     const auto isCarried = [&](BodyIndex body) { return carried[body] != 0; };
     if (!carried.empty() && std::ranges::any_of(world.data.joint_groups.bodiesOf(group), isCarried)) return true;
-    return std::ranges::any_of(world.data.joint_groups.jointsOf(group), [&](std::uint32_t j) {
-        return world.joints[j].hasMotor() && world.joints[j].motor_speed != 0;
-    });
+    return std::ranges::any_of(world.data.joint_groups.jointsOf(group),
+                               [&](std::uint32_t j) { return std::ranges::any_of(world.joints[j].free, isRunning); });
 }
 
 /// Whether the bodies of a joint slept through the resolution. One that overflowed in this step can no longer move.
 bool isAsleep(const BodyStorage& bodies, const Joint& joint) {
     const auto sleeps = [&](BodyIndex body) { return isMovable(bodies.kind, body) && bodies.asleep[body] != 0; };
     return sleeps(joint.a) || sleeps(joint.b);
+}
+
+/// From which turns are counted in the next step.
+void notePositions(const JointBlock& block, Joint& joint) {
+    for (std::size_t i = 0; i < joint.free.size(); ++i) joint.free[i].position = block.position[i];
 }
 
 void removeBroken(WorldState& world, std::uint32_t slot) {
@@ -55,6 +65,7 @@ void removeBroken(WorldState& world, std::uint32_t slot) {
 void prepareJoints(WorldState& world) {
     StepData& data = world.data;
     data.broken.clear();
+    placeCouplings(world);
     world.joint_grouping.build(world.joints, world.bodies.kind, data.joint_groups);
     listExcluded(world, data.excluded);
     data.jointed.assign(data.joint_groups.size() > 0 ? world.bodies.slots() : 0, 0);
@@ -87,12 +98,11 @@ void buildJointBlocks(WorldState& world) {
     data.joint_cursor.assign(data.joint_begin.begin(), data.joint_begin.end());
     for (std::size_t g = 0; g < groups.size(); ++g) {
         for (const std::uint32_t slot : groups.jointsOf(g)) {
-            const Joint& joint = world.joints[slot];
             JointBlock& block = data.joint_blocks[data.joint_cursor[batchOfGroup(g)]++];
-            block.joint = slot;
             block.group = static_cast<std::uint32_t>(g);
-            evaluate(joint, poseOf(world.bodies, joint.a), poseOf(world.bodies, joint.b), world.settings.timeStep(),
-                     block);
+            evaluate(world.joints, slot, world.bodies, world.settings.timeStep(), block);
+            for (BoundRow& bound : block.bound) bound.slowest = world.settings.resolution.restitution_threshold;
+            notePositions(block, world.joints[slot]);
         }
     }
     for (std::size_t i = 0; i < data.views.size(); ++i) {
@@ -126,8 +136,9 @@ void finishJoints(WorldState& world) {
             joint.impulse = joint.last_impulse;
             joint.angular_impulse = joint.last_angular_impulse;
         } else {
-            reportImpulses(block, joint);
+            reportImpulses(block, world.bodies, joint);
         }
+        joint.redundant = block.redundant;
     }
     const double time_step = world.settings.timeStep();
     for (std::uint32_t slot = 0; slot < world.joints.size(); ++slot) {
@@ -137,10 +148,13 @@ void finishJoints(WorldState& world) {
                             joint.angular_impulse.norm() > joint.break_torque * time_step;
         if (broken) removeBroken(world, slot);
     }
+    if (!world.data.broken.empty()) removeLooseCouplings(world);
 }
 
 bool hasMotors(const WorldState& world) {
-    return std::ranges::any_of(world.joints, [](const Joint& joint) { return joint.present && joint.hasMotor(); });
+    const auto mayDrive = [](const FreeAxis& axis) { return axis.mayDrive(); };
+    return std::ranges::any_of(
+        world.joints, [&](const Joint& joint) { return joint.present && std::ranges::any_of(joint.free, mayDrive); });
 }
 
 }  // namespace cairn

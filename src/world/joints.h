@@ -23,7 +23,7 @@ void letJointedSleep(WorldState& world);
 /// Notes the impulses of the resolution and removes the joints that were loaded too much.
 void finishJoints(WorldState& world);
 
-/// Whether a motor may add energy.
+/// Whether a motor, a servo or a spring may add energy.
 bool hasMotors(const WorldState& world);
 
 }  // namespace cairn

@@ -73,6 +73,12 @@ void pairFields(Stream& stream, Pair& pair) {
     field(stream, pair.spinning_friction);
 }
 
+template <class Stream, class Curve>
+void curveArrays(Stream& stream, Curve& curve) {
+    array(stream, curve.speeds);
+    array(stream, curve.values);
+}
+
 template <class Stream, class World>
 void worldFields(Stream& stream, World& world) {
     field(stream, world.gravity);
@@ -103,6 +109,38 @@ void springFields(Stream& stream, AnySpring& spring) {
     field(stream, spring.rest_length);
 }
 
+template <class Stream, class AnyAxis>
+void freeAxisFields(Stream& stream, AnyAxis& axis) {
+    field(stream, axis.along);
+    field(stream, axis.lower);
+    field(stream, axis.upper);
+    field(stream, axis.restitution);
+    field(stream, axis.motor_speed);
+    field(stream, axis.motor_limit);
+    field(stream, axis.servo_position);
+    field(stream, axis.servo_speed);
+    field(stream, axis.servo_stiffness);
+    field(stream, axis.servo_damping);
+    field(stream, axis.servo_limit);
+    field(stream, axis.spring_stiffness);
+    field(stream, axis.spring_rest);
+    field(stream, axis.damping);
+    field(stream, axis.friction);
+    field(stream, axis.rotor_inertia);
+    field(stream, axis.position);
+}
+
+inline void freeAxes(ByteWriter& out, const std::vector<FreeAxis>& axes) {
+    out.put(static_cast<std::uint8_t>(axes.size()));
+    for (const FreeAxis& axis : axes) freeAxisFields(out, axis);
+}
+inline void freeAxes(ByteReader& in, std::vector<FreeAxis>& axes) {
+    const auto count = in.get<std::uint8_t>();
+    if (count > JointBlock::most_rows) in.refuse("a joint with more free axes than there are");
+    axes.resize(count);
+    for (FreeAxis& axis : axes) freeAxisFields(in, axis);
+}
+
 template <class Stream, class AnyJoint>
 void jointFields(Stream& stream, AnyJoint& joint) {
     field(stream, joint.present);
@@ -115,14 +153,22 @@ void jointFields(Stream& stream, AnyJoint& joint) {
     field(stream, joint.axis_a);
     field(stream, joint.axis_b);
     field(stream, joint.rest);
+    field(stream, joint.frame);
     field(stream, joint.length);
-    field(stream, joint.lower);
-    field(stream, joint.upper);
-    field(stream, joint.motor_speed);
-    field(stream, joint.motor_limit);
+    field(stream, joint.lead);
+    field(stream, joint.cone);
+    freeAxes(stream, joint.free);
     field(stream, joint.break_force);
     field(stream, joint.break_torque);
     field(stream, joint.collide);
+    field(stream, joint.locked);
+    field(stream, joint.first);
+    field(stream, joint.second);
+    field(stream, joint.first_axis);
+    field(stream, joint.second_axis);
+    field(stream, joint.ratio);
+    field(stream, joint.offset);
+    field(stream, joint.redundant);
     field(stream, joint.impulse);
     field(stream, joint.angular_impulse);
 }

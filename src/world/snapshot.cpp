@@ -11,6 +11,7 @@
 #include "world/quarantine.h"
 #include "world/saved_fields.h"
 #include "world/saved_filter.h"
+#include "world/saved_joints.h"
 #include "world/saved_motions.h"
 
 namespace cairn {
@@ -78,6 +79,12 @@ void saveMaterials(const MaterialTable& materials, ByteWriter& out) {
             if (own != nullptr) pairFields(out, *own);
         }
     }
+    saveList(out, materials.laws(), [&](const MaterialTable::LawOfPair& entry) {
+        out.put(entry.a);
+        out.put(entry.b);
+        curveArrays(out, entry.law.restitution);
+        curveArrays(out, entry.law.friction);
+    });
 }
 
 void loadMaterials(ByteReader& in, MaterialTable& materials) {
@@ -96,6 +103,14 @@ void loadMaterials(ByteReader& in, MaterialTable& materials) {
                 pairFields(in, pair);
                 materials.setPair(static_cast<MaterialId>(a), static_cast<MaterialId>(b), pair);
             }
+        }
+        for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
+            const auto a = static_cast<MaterialId>(in.get<std::uint32_t>());
+            const auto b = static_cast<MaterialId>(in.get<std::uint32_t>());
+            PairLaw law;
+            curveArrays(in, law.restitution);
+            curveArrays(in, law.friction);
+            materials.setLaw(a, b, law);
         }
     } catch (const StaleIdError&) {
         throw;
@@ -186,10 +201,6 @@ void loadBodies(ByteReader& in, std::size_t materials, BodyStorage& b) {
     }
 }
 
-bool isFiniteAndNotNegative(double value) {
-    return value >= 0 && std::isfinite(value);
-}
-
 void loadSprings(ByteReader& in, const BodyStorage& bodies, std::vector<Spring>& springs) {
     for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
         Spring& spring = springs.emplace_back();
@@ -203,27 +214,6 @@ void loadSprings(ByteReader& in, const BodyStorage& bodies, std::vector<Spring>&
                            isFiniteAndNotNegative(spring.stiffness) && isFiniteAndNotNegative(spring.damping) &&
                            isFiniteAndNotNegative(spring.rest_length);
         if (!sound) in.refuse("a spring that no world has");
-    }
-}
-
-/// Whether addJoint() could have made it, or a setter changed it so.
-bool isSound(const Joint& joint, const BodyStorage& bodies) {
-    const auto exists = [&](BodyIndex i) { return i < bodies.slots() && bodies.kind[i] != BodyKind::hole; };
-    const auto isUnit = [](const auto& v) { return std::abs(v.squaredNorm() - 1) < 1e-6; };
-    const bool known = joint.kind <= JointKind::fixed && exists(joint.a) && joint.a != joint.b &&
-                       (joint.b == Joint::world || exists(joint.b));
-    const bool placed = joint.anchor_a.allFinite() && joint.anchor_b.allFinite() && isUnit(joint.axis_a) &&
-                        isUnit(joint.axis_b) && isUnit(joint.rest.coeffs());
-    return known && placed && isFiniteAndNotNegative(joint.length) && joint.lower <= joint.upper &&
-           std::isfinite(joint.motor_speed) && isFiniteAndNotNegative(joint.motor_limit) && joint.break_force > 0 &&
-           joint.break_torque > 0;
-}
-
-void loadJoints(ByteReader& in, const BodyStorage& bodies, std::vector<Joint>& joints) {
-    for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
-        Joint& joint = joints.emplace_back();
-        jointFields(in, joint);
-        if (joint.present && !isSound(joint, bodies)) in.refuse("a joint that no world has");
     }
 }
 

@@ -10,6 +10,7 @@
 #include "world/events.h"
 #include "world/joints.h"
 #include "world/motions.h"
+#include "world/pair_laws.h"
 #include "world/quarantine.h"
 #include "world/sensors.h"
 #include "world/totals.h"
@@ -170,6 +171,7 @@ void resolveStage(WorldState& world) {
     const GravityDampingSettings& damping = world.settings.gravity_damping;
     bodies.fall = (damping.damping_threshold > 0 ? 1 - damping.damping : 1.0) * world.settings.timeStep() *
                   (world.gravity + world.global_acceleration);
+    applyPairLaws(world, bodies);
     buildJointBlocks(world);
     resolveChosen(world, bodies);
     finishJoints(world);

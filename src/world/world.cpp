@@ -68,6 +68,18 @@ void World::setPairProperties(MaterialId a, MaterialId b, const PairProperties& 
     state_->data.pairs.forgetContacts();
 }
 
+void World::setPairLaw(MaterialId a, MaterialId b, const PairLaw& law) {
+    state_->lasting.reset();
+    state_->materials.setLaw(a, b, law);
+    state_->data.pairs.forgetContacts();
+}
+
+PairLaw World::pairLaw(MaterialId a, MaterialId b) const {
+    static_cast<void>(pairProperties(a, b));
+    const PairLaw* law = state_->materials.law(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+    return law != nullptr ? *law : PairLaw{};
+}
+
 PairProperties World::pairProperties(MaterialId a, MaterialId b) const {
     for (const MaterialId id : {a, b}) {
         if (!state_->materials.contains(id)) {

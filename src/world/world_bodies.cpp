@@ -6,7 +6,9 @@
 #include "activity/sleeping.h"
 #include "cairn/world.h"
 #include "geometry/body_mass.h"
+#include "world/couplings.h"
 #include "world/limits.h"
+#include "world/locks.h"
 #include "world/motions.h"
 #include "world/quarantine.h"
 #include "world/requirements.h"
@@ -133,6 +135,8 @@ BodyId World::addBody(const BodyDescription& d) {
     const Quat orientation = requireRotation(d.pose.orientation);
     BodyStorage& b = w.bodies;
     const std::uint64_t groups = b.filter.maskOf(d.groups);
+    const std::uint8_t locked = lockMaskOf(d.locked);
+    if (locked != 0 && d.fixed) throw InputError("a fixed body moves along no axis; leave locked out");
     auto curve = d.motion ? std::make_shared<const MotionCurve>(*d.motion) : nullptr;
     if (b.count() >= static_cast<std::size_t>(w.settings.limits.body_limit)) {
         throw InputError(
@@ -166,6 +170,10 @@ BodyId World::addBody(const BodyDescription& d) {
     b.user_data[i] = d.user_data;
     b.surface_velocity[i] = d.surface_velocity;
     b.updateMassProperties(i);
+    if (locked != 0) {
+        setLocks(w, i, locked);
+        b.asleep[i] = d.asleep ? 1 : 0;
+    }
     if (curve != nullptr) addLaw(w, {i, w.time, b.shapePose(i), d.pivot, std::move(curve)});
     return b.idOf(i);
 }
@@ -179,6 +187,7 @@ void World::removeBody(BodyId id) {
     w.ties.list(w.springs, w.joints, w.bodies.slots());
     for (const std::uint32_t slot : w.ties.springsOf(i)) removeTie(w.springs[slot], i, w.bodies.state());
     for (const std::uint32_t slot : w.ties.jointsOf(i)) removeTie(w.joints[slot], i, w.bodies.state());
+    if (!w.ties.jointsOf(i).empty()) removeLooseCouplings(w);
     removeLaw(w, i);
     w.bodies.release(i);
 }

@@ -4,6 +4,7 @@
 #include "activity/sleeping.h"
 #include "cairn/world.h"
 #include "geometry/geometry.h"
+#include "world/locks.h"
 #include "world/motions.h"
 #include "world/quarantine.h"
 #include "world/requirements.h"
@@ -71,6 +72,7 @@ void World::setPoses(std::span<const BodyId> ids, std::span<const Pose> poses) {
         const BodyIndex i = ids[k].index;
         b.setShapePose(i, {poses[k].position, requireRotation(poses[k].orientation)});
         b.updateMassProperties(i);
+        moveLocks(*state_, i);
         state.wake(i, WakeReason::changed);
     }
 }

@@ -41,7 +41,7 @@ Id anyOf(const std::vector<Id>& ids, fuzz::Bytes& in) {
 
 void addJoint(World& world, fuzz::Bytes& in, Made& made) {
     if (made.joints.size() >= Made::most_joints) return;
-    JointDescription d{.kind = static_cast<JointKind>(in.below(6)), .a = anyOf(made.bodies, in)};
+    JointDescription d{.kind = static_cast<JointKind>(in.below(15)), .a = anyOf(made.bodies, in)};
     if (in.below(2) == 0) d.b = anyOf(made.bodies, in);
     d.anchor = in.vector(2);
     if (d.kind == JointKind::distance || d.kind == JointKind::rope) d.anchor_b = in.vector(2);
@@ -53,6 +53,21 @@ void addJoint(World& world, fuzz::Bytes& in, Made& made) {
     if (in.below(4) == 0) d.break_force = std::abs(in.number(1e3));
     if (in.below(4) == 0) d.break_torque = std::abs(in.number(1e3));
     d.collide = in.below(2) == 0;
+    if (in.below(4) == 0) d.axis_2 = in.vector(1);
+    if (in.below(4) == 0) d.cone = in.number(2);
+    if (d.kind == JointKind::screw) d.lead = in.number(1);
+    if (in.below(4) == 0)
+        d.servo = JointServo{in.number(2), in.number(2), in.number(1e6), in.number(1e6), in.number(1e3)};
+    if (in.below(4) == 0) d.spring = JointSpring{in.number(1e6), in.number(1)};
+    if (in.below(4) == 0) d.damping = in.number(1e3);
+    if (in.below(4) == 0) d.friction = in.number(1e2);
+    if (in.below(4) == 0) d.rotor_inertia = in.number(10);
+    for (std::uint32_t left = in.below(4); left > 0; --left) {
+        d.axes.push_back({.along = static_cast<JointAlong>(in.below(7)), .friction = in.number(10)});
+    }
+    if (d.kind >= JointKind::gear) {
+        d = {.kind = d.kind, .first = anyOf(made.joints, in), .second = anyOf(made.joints, in), .ratio = in.number(5)};
+    }
     made.joints.push_back(world.addJoint(d));
 }
 

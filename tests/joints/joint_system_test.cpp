@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "joints/joint_groups.h"
+#include "joints/joint_kinds.h"
 #include "math/rotation.h"
 
 namespace cairn {
@@ -37,8 +38,9 @@ class Random {
     std::uint64_t state_ = 7;
 };
 
-constexpr std::array all_kinds = {JointKind::distance, JointKind::rope,   JointKind::ball,
-                                  JointKind::hinge,    JointKind::slider, JointKind::fixed};
+constexpr std::array all_kinds = {JointKind::distance,    JointKind::rope,  JointKind::ball,      JointKind::hinge,
+                                  JointKind::slider,      JointKind::fixed, JointKind::universal, JointKind::planar,
+                                  JointKind::cylindrical, JointKind::screw, JointKind::generic};
 
 /// A joint that holds where its bodies stand.
 Joint jointAt(JointKind kind, BodyIndex a, const Pose& pose_a, BodyIndex b, const Pose& pose_b, Random& random) {
@@ -55,9 +57,17 @@ Joint jointAt(JointKind kind, BodyIndex a, const Pose& pose_a, BodyIndex b, cons
     joint.axis_b = pose_b.orientation.conjugate() * axis;
     joint.rest = pose_b.orientation.conjugate() * pose_a.orientation;
     joint.length = (anchor - pose_b.position).norm();
-    if (kind == JointKind::hinge || kind == JointKind::slider) {
-        joint.lower = -0.3;
-        joint.upper = 0.4;
+    Mat3 frame;
+    frame << axis, anyAcross(axis), axis.cross(anyAcross(axis));
+    joint.frame = pose_b.orientation.conjugate() * Quat(frame);
+    joint.lead = 0.2;
+    for (const JointAlong along : entryOf(kind).free) joint.free.push_back({.along = along});
+    if (kind == JointKind::generic) joint.free = {{.along = JointAlong::z}, {.along = JointAlong::turn_y}};
+    // The rotation vector of a ball is what its spring follows; as a position it has no exact rate.
+    for (FreeAxis& axis_of : joint.free) {
+        if (kind == JointKind::ball && axis_of.along != JointAlong::turn_x) continue;
+        axis_of.lower = -0.3;
+        axis_of.upper = 0.4;
     }
     return joint;
 }
@@ -73,7 +83,7 @@ double rateOf(const JointRow& row, const Twist& a, const Twist& b) {
 class RowsOf : public ::testing::TestWithParam<JointKind> {};
 INSTANTIATE_TEST_SUITE_P(Joints, RowsOf, ::testing::ValuesIn(all_kinds));
 
-TEST_P(RowsOf, AreTheDerivativesOfTheErrorsAndOfThePosition) {
+TEST_P(RowsOf, AreTheDerivativesOfTheErrorsAndOfThePositions) {
     Random random;
     for (int i = 0; i < 200; ++i) {
         const Pose a{random.vector(), random.orientation()};
@@ -95,6 +105,40 @@ TEST_P(RowsOf, AreTheDerivativesOfTheErrorsAndOfThePosition) {
         for (std::uint32_t k = 0; k < here.bounds; ++k) {
             const double rate = (before.bound[k].to_upper - after.bound[k].to_upper) / (2 * time);
             EXPECT_NEAR(rate, rateOf(here.bound[k].row, u, w), 1e-8);
+        }
+    }
+}
+
+TEST_P(RowsOf, FollowTheFreeAxesFarFromWhereTheyBegan) {
+    Random random;
+    for (int i = 0; i < 200; ++i) {
+        const Pose b{random.vector(), random.orientation()};
+        Pose a{2 * random.vector(), random.orientation()};
+        Joint joint = jointAt(GetParam(), 0, a, 1, b, random);
+        if (joint.kind == JointKind::ball) joint.cone = 0.5;
+        // Along the free axes only, so that all else stays.
+        for (int k = 0; k < 40; ++k) {
+            Twist u;
+            for (std::size_t n = 0; n < joint.free.size(); ++n) {
+                const JointRow row = motionOf(joint, n, a, b).row;
+                u.v += 0.03 * (1 + random.symmetric()) * row.linear;
+                u.w += 0.03 * (1 + random.symmetric()) * row.angular_a;
+            }
+            a = moved(a, u, 1);
+        }
+        const Twist u{random.vector(), random.vector()};
+        const Twist w{random.vector(), random.vector()};
+        constexpr double time = 1e-5;
+        JointBlock here;
+        JointBlock before;
+        JointBlock after;
+        evaluate(joint, a, b, 0.01, here);
+        evaluate(joint, moved(a, u, -time), moved(b, w, -time), 0.01, before);
+        evaluate(joint, moved(a, u, time), moved(b, w, time), 0.01, after);
+        ASSERT_GE(here.bounds, joint.free.empty() ? 0U : 1U);
+        for (std::uint32_t k = 0; k < here.bounds; ++k) {
+            const double rate = (before.bound[k].to_upper - after.bound[k].to_upper) / (2 * time);
+            EXPECT_NEAR(rate, rateOf(here.bound[k].row, u, w), 1e-7) << k;
         }
     }
 }
@@ -141,7 +185,7 @@ TEST(JointSystem, SolvesWhatADenseFactorisationSolves) {
     ASSERT_EQ(groups.size(), 1U);
     std::vector<JointBlock> blocks = m.blocks(groups.jointsOf(0));
     JointSystem system;
-    system.begin(groups.bodiesOf(0), blocks);
+    system.begin(groups.bodiesOf(0), blocks, JointSystem::Rows::all);
     system.factorise(m.response);
     const auto rows = static_cast<Eigen::Index>(system.rows());
     Eigen::MatrixXd j = Eigen::MatrixXd::Zero(rows, 48);
@@ -181,7 +225,7 @@ TEST(JointSystem, AnImpulseThroughJointsLeavesThemHolding) {
     JointGrouping().build(m.joints, m.kind, groups);
     std::vector<JointBlock> blocks = m.blocks(groups.jointsOf(0));
     JointSystem system;
-    system.begin(groups.bodiesOf(0), blocks);
+    system.begin(groups.bodiesOf(0), blocks, JointSystem::Rows::all);
     system.factorise(m.response);
     system.respond(1, {Vec3(1, 2, 3), Vec3(0, 1, 0)}, 4, {Vec3(0, 0, -1), Vec3::Zero()});
     std::vector<double> rates(system.rows());

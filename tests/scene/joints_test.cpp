@@ -51,13 +51,51 @@ TEST(SceneJoints, AreWrittenAndReadExactly) {
     EXPECT_FALSE(read.joints[5].b);
 }
 
+TEST(SceneJoints, OfAllKindsWithAllThatActsOnThemAreWrittenAndReadExactly) {
+    Scene scene = parseScene(sceneText(), "test");
+    const JointAxis rich{.along = JointAlong::turn_y,
+                         .lower = -9.5,
+                         .upper = 1.0 / 7,
+                         .restitution = 0.5,
+                         .servo = JointServo{1, 2, 3, 4, 5},
+                         .spring = JointSpring{6, -0.5},
+                         .damping = 7,
+                         .friction = 8,
+                         .rotor_inertia = 9};
+    const JointAxis driven{.along = JointAlong::z, .motor = JointMotor{1, 2}};
+    const auto add = [&](JointDescription joint) { scene.joints.push_back({1, 2, std::move(joint)}); };
+    add({.kind = JointKind::hinge, .axis = {1, 0, 0}, .servo = JointServo{.stiffness = 1e30}, .friction = 2});
+    add({.kind = JointKind::screw, .axis = {1, 0, 0}, .lead = 0.1, .spring = JointSpring{3, 0}, .rotor_inertia = 1});
+    add({.kind = JointKind::universal, .axis = {1, 0, 0}, .axis_2 = Vec3(0, 1, 0), .axes = {{}, {.damping = 1}}});
+    add({.kind = JointKind::planar, .axis = {1, 0, 0}, .axes = {{}, {}, {.friction = 1}}, .break_torque = 2});
+    add({.kind = JointKind::cylindrical, .axis = {1, 0, 0}});
+    add({.kind = JointKind::generic, .axis = {1, 0, 0}, .axis_2 = Vec3(0, 1, 0), .axes = {rich, driven}});
+    add({.kind = JointKind::ball, .cone = 0.5, .axes = {{.lower = -1}, {}, {.spring = JointSpring{1, 0}}}});
+    const auto couple = [&](JointKind kind, std::size_t first, std::size_t second, std::size_t second_axis) {
+        JointDescription joint{.kind = kind, .second_axis = second_axis, .ratio = 1.0 / 3};
+        scene.joints.push_back({.a = 0, .b = {}, .joint = joint, .first = first, .second = second});
+    };
+    couple(JointKind::gear, 0, 1, 0);
+    couple(JointKind::rack, 0, 4, 0);
+    couple(JointKind::mimic, 4, 4, 1);
+    const std::string text = formatScene(scene);
+    const Scene read = parseScene(text, "test");
+    EXPECT_EQ(formatScene(read), text);
+    const JointAxis& axis = read.joints[5].joint.axes.at(0);
+    EXPECT_EQ(axis.along, JointAlong::turn_y);
+    EXPECT_EQ(axis.servo->limit, 5);
+    EXPECT_EQ(axis.spring->rest, -0.5);
+    EXPECT_EQ(read.joints[9].second, 4U);
+    EXPECT_EQ(SceneRun(read, settingsFor(read)).world().joints().size(), 10U);
+}
+
 TEST(SceneJoints, RefuseWhatMeansNothing) {
     const auto expect = [](const std::string& joint, const std::string& part) {
         EXPECT_NE(parseMessage(withJoint(joint)).find(part), std::string::npos) << parseMessage(withJoint(joint));
     };
     expect(R"({"a":1})", "joints[0].type is missing");
     expect(R"({"type":"glue","a":1})", "distance, rope, ball, hinge, slider, fixed");
-    expect(R"({"type":"ball","a":1,"axis":[0,0,1]})", "unknown key \"axis\"");
+    expect(R"({"type":"fixed","a":1,"axis":[0,0,1]})", "unknown key \"axis\"");
     expect(R"({"type":"ball","a":1,"b":1})", "is the same body as a");
     expect(R"({"type":"ball","a":0})", "joins nothing that can move");
     expect(R"({"type":"ball","a":99})", "does not exist");
@@ -67,13 +105,22 @@ TEST(SceneJoints, RefuseWhatMeansNothing) {
     expect(R"({"type":"slider","a":1,"axis":[1,0,0],"motor":{"speed":1}})", "motor.limit is missing");
     expect(R"({"type":"rope","a":1})", "anchor_b is missing");
     expect(R"({"type":"ball","a":1,"break_force":-3})", "break_force is -3;");
+    expect(R"({"type":"screw","a":1,"axis":[1,0,0]})", "lead is missing");
+    expect(R"({"type":"generic","a":1,"axis":[1,0,0],"axes":[{}]})", "along is missing");
+    expect(R"({"type":"generic","a":1,"axis":[1,0,0],"axes":[{"along":"w"}]})", "x, y, z, turn_x");
+    expect(R"({"type":"cylindrical","a":1,"axis":[1,0,0],"axes":[{"along":"x"}]})", "unknown key \"along\"");
+    expect(R"({"type":"hinge","a":1,"axis":[1,0,0],"servo":{"gain":1}})", "unknown key \"gain\"");
+    expect(R"({"type":"hinge","a":1,"axis":[1,0,0],"spring":{"rest":1}})", "stiffness is missing");
+    expect(R"({"type":"gear","first":0,"second":1,"ratio":2})", "a joint that stands before this one");
+    expect(R"({"type":"gear","a":1})", "unknown key \"a\"");
 }
 
 TEST(SceneJoints, WhatOnlyAWorldCanSeeIsRefusedWithTheJointsNumber) {
-    const Scene scene = parseScene(withJoint(R"({"type":"hinge","a":1,"axis":[1,0,0],"lower":-9,"upper":1})"), "test");
+    const Scene scene =
+        parseScene(withJoint(R"({"type":"hinge","a":1,"axis":[1,0,0],"lower":-9e9,"upper":1})"), "test");
     try {
         const SceneRun run(scene, settingsFor(scene));
-        FAIL() << "limits beyond ±π";
+        FAIL() << "limits beyond all turns";
     } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find("joint 0"), std::string::npos) << error.what();
     }

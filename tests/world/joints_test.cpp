@@ -64,8 +64,7 @@ TEST(WorldJoints, RefuseValuesThatMeanNothing) {
     EXPECT_TRUE(has(s.refusal({.a = a, .break_force = nan}), "break_force"));
     EXPECT_TRUE(has(s.refusal({.a = a, .break_torque = 5}), "no torque"));
     EXPECT_TRUE(has(s.refusal({.kind = JointKind::slider, .a = a, .lower = 1, .upper = -1}), "reversed"));
-    EXPECT_TRUE(has(s.refusal({.kind = JointKind::hinge, .a = a, .lower = -4, .upper = 1}), "within ±3.14"));
-    EXPECT_TRUE(has(s.refusal({.kind = JointKind::hinge, .a = a, .lower = -1}), "give both"));
+    EXPECT_TRUE(has(s.refusal({.kind = JointKind::hinge, .a = a, .lower = -4e7, .upper = 1}), "within ±1000000 rad"));
     EXPECT_TRUE(has(s.refusal({.a = a, .lower = -1, .upper = 1}), "no limits"));
     EXPECT_TRUE(has(s.refusal({.a = a, .motor = JointMotor{1, 1}}), "no motor"));
     EXPECT_TRUE(has(s.refusal({.kind = JointKind::hinge, .a = a, .motor = JointMotor{1, -1}}), "limit of a motor"));
@@ -75,6 +74,89 @@ TEST(WorldJoints, RefuseValuesThatMeanNothing) {
     EXPECT_TRUE(has(s.refusal({.kind = JointKind::rope, .a = a, .anchor_b = Vec3::Zero()}), "on each other"));
     EXPECT_TRUE(has(s.refusal({.kind = JointKind::rope, .a = a, .anchor_b = Vec3::Zero(), .length = -2.0}), "length"));
     EXPECT_TRUE(s.world.joints().empty()) << "nothing refused stays";
+}
+
+TEST(WorldJoints, RefuseAxesThatMeanNothing) {
+    Site s;
+    const BodyId a = s.box({0, 0, 1});
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto hinge = [&](const JointAxis& axis) {
+        JointDescription d{.kind = JointKind::hinge, .a = a};
+        d.lower = axis.lower;
+        d.restitution = axis.restitution;
+        d.motor = axis.motor;
+        d.servo = axis.servo;
+        d.spring = axis.spring;
+        d.damping = axis.damping;
+        d.friction = axis.friction;
+        d.rotor_inertia = axis.rotor_inertia;
+        return s.refusal(d);
+    };
+    EXPECT_TRUE(has(hinge({.servo = JointServo{.stiffness = nan}}), "stiffness of a servo"));
+    EXPECT_TRUE(has(hinge({.servo = JointServo{.stiffness = 1e31}}), "stiffness of a servo"));
+    EXPECT_TRUE(has(hinge({.servo = JointServo{.damping = -1}}), "damping of a servo"));
+    EXPECT_TRUE(has(hinge({.servo = JointServo{.position = nan, .damping = 1}}), "position of a servo"));
+    EXPECT_TRUE(has(hinge({.servo = JointServo{.speed = nan, .damping = 1}}), "speed of a servo"));
+    EXPECT_TRUE(has(hinge({.servo = JointServo{.damping = 1, .limit = nan}}), "limit of a servo"));
+    EXPECT_TRUE(has(hinge({.servo = JointServo{.position = 1}}), "neither stiffness nor damping"));
+    EXPECT_TRUE(has(hinge({.motor = JointMotor{1, 1}, .servo = JointServo{.damping = 1}}), "a motor and a servo"));
+    EXPECT_TRUE(has(hinge({.spring = JointSpring{-1, 0}}), "stiffness of a spring"));
+    EXPECT_TRUE(has(hinge({.spring = JointSpring{1, nan}}), "rest of a spring"));
+    EXPECT_TRUE(has(hinge({.lower = nan}), "a limit of a hinge"));
+    EXPECT_TRUE(has(hinge({.restitution = 1.5}), "restitution of a hinge"));
+    EXPECT_TRUE(has(hinge({.damping = nan}), "damping of a hinge"));
+    EXPECT_TRUE(has(hinge({.friction = -1}), "friction of a hinge"));
+    EXPECT_TRUE(has(hinge({.rotor_inertia = -1}), "rotor_inertia of a hinge"));
+    EXPECT_TRUE(has(s.refusal({.a = a, .damping = 1}), "no damping of its own; give it in axes"));
+    EXPECT_TRUE(has(s.refusal({.a = a, .axes = {{}}}), "has 3 free axes, but axes has 1"));
+    EXPECT_TRUE(has(s.refusal({.a = a, .axes = {{}, {.upper = 1}, {}}}), "give the others a cone"));
+    EXPECT_TRUE(has(s.refusal({.a = a, .axes = {{.upper = 4}, {}, {}}}), "beyond ±π"));
+    EXPECT_TRUE(has(s.refusal({.a = a, .cone = -1}), "cone of a ball joint"));
+    EXPECT_TRUE(has(s.refusal({.kind = JointKind::fixed, .a = a, .cone = 1}), "no cone"));
+    EXPECT_TRUE(has(s.refusal({.kind = JointKind::screw, .a = a}), "needs its lead"));
+    EXPECT_TRUE(has(s.refusal({.kind = JointKind::hinge, .a = a, .lead = 1}), "no lead"));
+    EXPECT_TRUE(has(s.refusal({.kind = JointKind::hinge, .a = a, .axis_2 = Vec3::UnitX()}), "one axis only"));
+    EXPECT_TRUE(has(s.refusal({.kind = JointKind::universal, .a = a, .axis_2 = Vec3::UnitZ()}), "along its axis"));
+    EXPECT_TRUE(has(s.refusal({.kind = JointKind::generic, .a = a, .axes = {{}, {}}}), "given twice"));
+    EXPECT_TRUE(s.world.joints().empty()) << "nothing refused stays";
+}
+
+TEST(WorldJoints, RefuseCouplingsOfWhatCannotBeCoupled) {
+    Site s;
+    const BodyId a = s.box({0, 0, 1});
+    const JointId ball = s.world.addJoint({.a = a});
+    const JointId hinge = s.world.addJoint({.kind = JointKind::hinge, .a = a});
+    const JointId fixed = s.world.addJoint({.kind = JointKind::fixed, .a = a});
+    const auto couple = [&](JointKind kind, JointId first, JointId second, double ratio = 1) {
+        return s.refusal({.kind = kind, .first = first, .second = second, .ratio = ratio});
+    };
+    EXPECT_TRUE(has(couple(JointKind::gear, hinge, fixed), "no free axis 0"));
+    EXPECT_TRUE(has(couple(JointKind::gear, hinge, hinge), "to itself"));
+    EXPECT_TRUE(has(couple(JointKind::rack, hinge, ball), "displacement of the second"));
+    EXPECT_TRUE(has(couple(JointKind::mimic, hinge, ball, 0), "ratio of a mimic is 0"));
+    EXPECT_TRUE(has(s.refusal({.kind = JointKind::gear, .damping = 1}), "nothing else"));
+    EXPECT_THROW(s.world.addJoint({.kind = JointKind::gear, .first = hinge, .second = {99, 0}}), StaleIdError);
+    const JointId gear = s.world.addJoint({.kind = JointKind::gear, .first = hinge, .second = ball});
+    EXPECT_TRUE(has(couple(JointKind::mimic, hinge, gear), "no free axis 0"));
+    s.world.removeBody(a);
+    EXPECT_FALSE(s.world.contains(gear));
+}
+
+TEST(WorldJoints, AxesAreSetAnewWhileTheWorldRuns) {
+    Site s;
+    s.world.setGravity(Vec3::Zero());
+    const BodyId a = s.box({0, 0, 1});
+    const JointId joint = s.world.addJoint({.kind = JointKind::cylindrical, .a = a, .anchor = {0, 0, 1}});
+    s.world.setJointAxis(joint, 1, {.motor = JointMotor{3, 1e6}});
+    s.run(10);
+    EXPECT_NEAR(s.world.joint(joint).speeds[1], 3, 1e-9);
+    EXPECT_THROW(s.world.setJointAxis(joint, 2, {}), InputError);
+    EXPECT_THROW(s.world.setJointServo(joint, {.damping = 1}), InputError) << "it has two axes";
+    const JointId hinge = s.world.addJoint({.kind = JointKind::hinge, .a = s.box({1, 0, 1}), .anchor = {1, 0, 1}});
+    s.world.setJointServo(hinge, {.position = 0.5, .stiffness = 1e20, .damping = 1e10});
+    s.run(10);
+    EXPECT_NEAR(s.world.joint(hinge).position, 0.5, 1e-6);
+    EXPECT_THROW(s.world.setJointMotor(hinge, {1, 1}), InputError) << "it has a servo";
 }
 
 TEST(WorldJoints, IdsOfRemovedOnesAreStale) {

@@ -1,6 +1,9 @@
 /** Joints and springs of a recording: placed by the poses of the bodies that they tie together. */
 import { Quaternion, Vector3 } from 'three';
-import { distanceJoint, noSlot, present, ropeJoint, sliderJoint, type Frame, type Joints } from './model';
+import {
+  couples, cylindricalJoint, distanceJoint, genericJoint, noSlot, planarJoint, present, ropeJoint, screwJoint, sliderJoint,
+  type Frame, type Joints,
+} from './model';
 
 type Triple = [number, number, number];
 
@@ -9,7 +12,7 @@ export interface LineInfo { a: number; b: number | null; anchorA: Triple; anchor
 
 export interface JointInfo extends LineInfo {
   kind: number;
-  /** of hinges and sliders, in the frame of B */
+  /** of those that have one, in the frame of B */
   axis: Triple;
   /** of distances and ropes [m] */
   length: number;
@@ -78,7 +81,11 @@ function gapOf(joint: JointInfo, place: Placer): number {
   switch (joint.kind) {
     case distanceJoint: return Math.abs(way.length() - joint.length);
     case ropeJoint: return way.length() - joint.length;
-    case sliderJoint: return way.projectOnPlane(place.direction(joint.b, joint.axis).normalize()).length();
-    default: return way.length();
+    case sliderJoint: case cylindricalJoint: case screwJoint:
+      return way.projectOnPlane(place.direction(joint.b, joint.axis).normalize()).length();
+    case planarJoint: return Math.abs(way.dot(place.direction(joint.b, joint.axis).normalize()));
+    // What it leaves free is not told.
+    case genericJoint: return 0;
+    default: return couples(joint.kind) ? 0 : way.length();
   }
 }

@@ -56,8 +56,17 @@ export interface Contacts {
 }
 
 /** What a joint keeps, in the order of their numbers. */
-export const jointKinds = ['distance', 'rope', 'ball joint', 'hinge', 'slider', 'fixed joint'];
-export const distanceJoint = 0, ropeJoint = 1, hingeJoint = 3, sliderJoint = 4;
+export const jointKinds = ['distance', 'rope', 'ball joint', 'hinge', 'slider', 'fixed joint', 'universal joint', 'planar joint',
+  'cylindrical joint', 'screw', 'generic joint', 'gear', 'rack', 'mimic'];
+export const distanceJoint = 0, ropeJoint = 1, ballJoint = 2, sliderJoint = 4, fixedJoint = 5, universalJoint = 6, planarJoint = 7,
+  cylindricalJoint = 8, screwJoint = 9, genericJoint = 10, gearJoint = 11;
+
+/** Gears, racks and mimics: between the anchors of two joints. */
+export function couples(kind: number): boolean { return kind >= gearJoint; }
+/** Whether a line shows the axis that the joint turns about or moves along. */
+export function hasAxis(kind: number): boolean {
+  return kind !== ballJoint && kind !== fixedJoint && kind !== genericJoint && kind > ropeJoint && !couples(kind);
+}
 /** stands for the world where a body could stand */
 export const noSlot = 0xffffffff;
 

@@ -3,7 +3,7 @@ import {
   BufferAttribute, BufferGeometry, DynamicDrawUsage, Group, LineBasicMaterial, LineSegments, Matrix4, Points, PointsMaterial, Quaternion,
   Vector3,
 } from 'three';
-import { distanceJoint, hingeJoint, noSlot, present, ropeJoint, sliderJoint, type BodyInfo, type Frame, type Joints, type ViewOptions } from '../model';
+import { couples, distanceJoint, hasAxis, noSlot, present, ropeJoint, type BodyInfo, type Frame, type Joints, type ViewOptions } from '../model';
 import { overlayHex } from './palette';
 import { boxOf } from './solids';
 
@@ -152,7 +152,7 @@ export class Overlays {
     }
   }
 
-  /** A pin where bodies are joined, tied to their origins; rods and ropes as they are, hinges and sliders with their axis. */
+  /** A pin where bodies are joined, tied to their origins; rods, ropes and gears as they are, others with their axis. */
   private drawJoints(joints: Joints | undefined, frame: Frame, size: number): void {
     const lines = this.lines.joints;
     const pins: number[] = [];
@@ -161,7 +161,7 @@ export class Overlays {
       const [ax, ay, az, bx, by, bz, x, y, z] = joints.points.subarray(9 * i, 9 * i + 9);
       pins.push(ax, ay, az);
       const kind = joints.kind[i];
-      if (kind === distanceJoint || kind === ropeJoint) {
+      if (kind === distanceJoint || kind === ropeJoint || couples(kind)) {
         pins.push(bx, by, bz);
         lines.add(ax, ay, az, bx, by, bz);
         continue;
@@ -170,7 +170,7 @@ export class Overlays {
         const at = 3 * slot;
         if (slot !== noSlot && slot < frame.slots) lines.add(ax, ay, az, frame.position[at], frame.position[at + 1], frame.position[at + 2]);
       }
-      if (kind !== hingeJoint && kind !== sliderJoint) continue;
+      if (!hasAxis(kind)) continue;
       lines.add(bx - size * x, by - size * y, bz - size * z, bx + size * x, by + size * y, bz + size * z);
     }
     lines.end();

@@ -1,0 +1,30 @@
+#include "scene/scene_writing.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace cairn::written {
+
+std::string number(double value) {
+    if (!std::isfinite(value)) {
+        throw InputError(fmt::format("a scene with the number {} cannot be written; numbers must be finite", value));
+    }
+    // Without the point JSON readers take minus zero for the whole number 0.
+    if (value == 0 && std::signbit(value)) return "-0.0";
+    return fmt::format("{}", value);
+}
+
+bool same(double a, double b) {
+    return a == b && std::signbit(a) == std::signbit(b);
+}
+
+bool isOmitted(const Vec3& v) {
+    return same(v.x(), 0) && same(v.y(), 0) && same(v.z(), 0);
+}
+
+std::string vector(const Vec3& v) {
+    return fmt::format("[{},{},{}]", number(v.x()), number(v.y()), number(v.z()));
+}
+
+}  // namespace cairn::written
