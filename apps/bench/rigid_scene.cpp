@@ -31,6 +31,8 @@ struct CommonShape {
     RigidShape operator()(const HalfSpace& shape) const { return shape; }
     RigidShape operator()(const Cylinder&) const { refuse(scene, "cylinders"); }
     RigidShape operator()(const ConvexHull&) const { refuse(scene, "convex hulls"); }
+    RigidShape operator()(const Mesh&) const { refuse(scene, "meshes"); }
+    RigidShape operator()(const HeightField&) const { refuse(scene, "height fields"); }
     RigidShape operator()(const Compound&) const { refuse(scene, "compounds"); }
 };
 

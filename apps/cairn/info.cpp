@@ -16,7 +16,7 @@ namespace {
 
 /// The names of the alternatives of Shape, in their order.
 constexpr std::array<std::string_view, std::variant_size_v<Shape>> shape_names = {
-    "sphere", "box", "capsule", "plane", "cylinder", "hull", "compound"};
+    "sphere", "box", "capsule", "plane", "cylinder", "hull", "compound", "mesh", "height_field"};
 
 std::string line(std::string_view name, std::string_view value) {
     return fmt::format("{:<14} {}\n", name, value);

@@ -39,6 +39,16 @@ json toJson(const Quat& q) {
     return json::array({q.w(), q.x(), q.y(), q.z()});
 }
 
+namespace {
+
+json surfaceJson(std::span<const Vec3> vertices, std::span<const TriangleCorners> triangles) {
+    json points = json::array();
+    for (const Vec3& vertex : vertices) points.push_back(toJson(vertex));
+    return {{"type", "mesh"}, {"vertices", points}, {"indices", json(triangles)}};
+}
+
+}  // namespace
+
 json toJson(const Shape& shape) {
     return std::visit(
         Overloaded{
@@ -68,6 +78,8 @@ json toJson(const Shape& shape) {
                 }
                 return {{"type", "compound"}, {"parts", parts}};
             },
+            [](const Mesh& m) -> json { return surfaceJson(m.vertices(), m.triangles()); },
+            [](const HeightField& f) -> json { return surfaceJson(f.vertices(), f.triangles()); },
             [](const HalfSpace& h) -> json {
                 // The page expects a unit normal with the offset along it.
                 return {{"type", "plane"}, {"normal", toJson(Vec3(h.normal.normalized()))}, {"offset", h.offset}};
@@ -87,22 +99,24 @@ json toJson(std::span<const Material> materials) {
 
 std::string describeShape(const Shape& shape) {
     return std::visit(
-        Overloaded{[](const Sphere& s) { return fmt::format("ball, diameter {:.4g} cm", 200 * s.radius); },
-                   [](const Box& b) {
-                       return fmt::format("box {:.4g} × {:.4g} × {:.4g} cm", 100 * b.size.x(), 100 * b.size.y(),
-                                          100 * b.size.z());
-                   },
-                   [](const Capsule& c) {
-                       return fmt::format("capsule, diameter {:.4g} cm, length {:.4g} cm", 200 * c.radius,
-                                          100 * (c.length + 2 * c.radius));
-                   },
-                   [](const Cylinder& c) {
-                       return fmt::format("cylinder, diameter {:.4g} cm, length {:.4g} cm", 200 * c.radius,
-                                          100 * c.length);
-                   },
-                   [](const ConvexHull& h) { return fmt::format("hull of {} corners", h.corners().size()); },
-                   [](const Compound& c) { return fmt::format("compound of {} parts", c.parts.size()); },
-                   [](const HalfSpace&) { return std::string("half-space"); }},
+        Overloaded{
+            [](const Sphere& s) { return fmt::format("ball, diameter {:.4g} cm", 200 * s.radius); },
+            [](const Box& b) {
+                return fmt::format("box {:.4g} × {:.4g} × {:.4g} cm", 100 * b.size.x(), 100 * b.size.y(),
+                                   100 * b.size.z());
+            },
+            [](const Capsule& c) {
+                return fmt::format("capsule, diameter {:.4g} cm, length {:.4g} cm", 200 * c.radius,
+                                   100 * (c.length + 2 * c.radius));
+            },
+            [](const Cylinder& c) {
+                return fmt::format("cylinder, diameter {:.4g} cm, length {:.4g} cm", 200 * c.radius, 100 * c.length);
+            },
+            [](const ConvexHull& h) { return fmt::format("hull of {} corners", h.corners().size()); },
+            [](const Compound& c) { return fmt::format("compound of {} parts", c.parts.size()); },
+            [](const Mesh& m) { return fmt::format("mesh of {} triangles", m.triangles().size()); },
+            [](const HeightField& f) { return fmt::format("height field of {} × {} heights", f.columns(), f.rows()); },
+            [](const HalfSpace&) { return std::string("half-space"); }},
         shape);
 }
 

@@ -6,6 +6,7 @@
 #include "cairn/events.h"
 #include "cairn/filter.h"
 #include "cairn/material.h"
+#include "cairn/mesh_file.h"
 #include "cairn/motion.h"
 #include "cairn/query.h"
 #include "cairn/recording.h"

@@ -1,6 +1,7 @@
 /// @file Questions about shapes where they are: what a ray or a moving shape hits, what overlaps, how far apart they
 /// are. World asks them of its bodies; the functions here ask them of two shapes and need no world. What is asked of a
-/// shape with parts names the part; of all other shapes the part is 0.
+/// shape with parts names the part, of a mesh or height field the triangle; of all other shapes the part is 0. Surfaces
+/// of one side are seen by rays from this side only.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +28,7 @@ struct SurfaceHit {
     double distance = 0;          ///< from the origin of the ray [m]
     Vec3 point = Vec3::Zero();    ///< [m, W]
     Vec3 normal = Vec3::UnitX();  ///< of the surface: unit, outward, W
-    std::uint32_t part = 0;       ///< index in Compound::parts
+    std::uint32_t part = 0;       ///< index in Compound::parts, or in triangles of a mesh or height field
 };
 
 /// Where a shape that moves without turning first touches another. Shapes that overlap or touch at the beginning have

@@ -133,6 +133,12 @@ class Baseline(enum.IntEnum):
     none = 0
     at_rest = 1
 
+class SurfaceSides(enum.IntEnum):
+    """Which sides of a surface touch others."""
+
+    one = 0
+    two = 1
+
 class Stage(enum.IntEnum):
     """The nine stages of a time step, in order."""
 
@@ -349,6 +355,89 @@ class ConvexHull(_Record):
     def corners(self) -> Floats:
         """The points that are corners of the solid [m], shape (m, 3)."""
 
+class SurfaceRepairs(_Record):
+    """What was mended when a surface was built."""
+
+    def __init__(
+        self, welded: int = ..., degenerate: int = ..., duplicate: int = ..., open_edges: int = ...
+    ) -> None: ...
+    @property
+    def welded(self) -> int:
+        """Vertices at the place of another one, or of no triangle."""
+    @property
+    def degenerate(self) -> int:
+        """Triangles without an area, left out."""
+    @property
+    def duplicate(self) -> int:
+        """Triangles given before, left out."""
+    @property
+    def open_edges(self) -> int:
+        """Edges without exactly one neighbour of the same orientation."""
+
+class Mesh(_Record):
+    """A surface of triangles; its body is fixed and may have a motion."""
+
+    def __init__(
+        self,
+        vertices: ArrayLike,
+        triangles: ArrayLike,
+        sides: Union[SurfaceSides, str] = ...,
+        scale: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def vertices(self) -> Floats:
+        """Those kept, scaled [m], shape (n, 3)."""
+    @property
+    def triangles(self) -> NDArray[np.uint32]:
+        """Those kept: indices of vertices, shape (m, 3); the parts of questions."""
+    @property
+    def sides(self) -> SurfaceSides:
+        """Which sides touch others."""
+    @property
+    def repairs(self) -> SurfaceRepairs:
+        """What was mended."""
+    @property
+    def bytes(self) -> int:
+        """Of memory that copies share."""
+
+class HeightField(_Record):
+    """Ground given by heights over a grid about the origin; otherwise as a mesh."""
+
+    def __init__(self, heights: ArrayLike, spacing: ArrayLike) -> None: ...
+    @property
+    def heights(self) -> Floats:
+        """[m], shape (rows, columns): rows along y, columns along x."""
+    @property
+    def spacing(self) -> Floats:
+        """Of columns and rows [m], shape (2,)."""
+    @property
+    def columns(self) -> int:
+        """Along x."""
+    @property
+    def rows(self) -> int:
+        """Along y."""
+    @property
+    def vertices(self) -> Floats:
+        """One per height [m], shape (n, 3)."""
+    @property
+    def triangles(self) -> NDArray[np.uint32]:
+        """Two per cell: indices of vertices, shape (m, 3); the parts of questions."""
+    @property
+    def bytes(self) -> int:
+        """Of memory that copies share."""
+
+def read_mesh(file: FilePath, sides: Union[SurfaceSides, str] = ..., scale: ArrayLike = ...) -> Mesh:
+    """Reads a mesh from an STL, OBJ or PLY file."""
+
+def parse_mesh(bytes: bytes, source: str, sides: Union[SurfaceSides, str] = ..., scale: ArrayLike = ...) -> Mesh:
+    """The same of a file's content."""
+
+def read_height_field(file: FilePath, spacing: ArrayLike, scale: float) -> HeightField:
+    """Reads heights from a greyscale PNG whose white is so high [m]."""
+
+def parse_height_field(bytes: bytes, source: str, spacing: ArrayLike, scale: float) -> HeightField:
+    """The same of a file's content."""
+
 class CompoundPart(_Record):
     """A shape of a compound."""
 
@@ -361,7 +450,7 @@ class CompoundPart(_Record):
     ) -> None: ...
     @property
     def shape(self) -> Shape:
-        """Any but half-spaces and compounds."""
+        """Any solid but compounds."""
     @property
     def pose(self) -> Pose:
         """Of the shape in the compound's frame."""

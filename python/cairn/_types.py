@@ -18,7 +18,8 @@ FilePath = Union[str, "PathLike[str]"]
 Ids = Union[Sequence[_core.BodyId], Structured]
 #: Any shape.
 Shape = Union[
-    _core.Sphere, _core.Box, _core.Capsule, _core.HalfSpace, _core.Cylinder, _core.ConvexHull, _core.Compound
+    _core.Sphere, _core.Box, _core.Capsule, _core.HalfSpace, _core.Cylinder, _core.ConvexHull, _core.Compound,
+    _core.Mesh, _core.HeightField,
 ]
 #: What an event does.
 EventAction = Union[

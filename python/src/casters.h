@@ -75,6 +75,8 @@ inline constexpr const char* enum_name<TableEnd> = "TableEnd";
 template <>
 inline constexpr const char* enum_name<Baseline> = "Baseline";
 template <>
+inline constexpr const char* enum_name<SurfaceSides> = "SurfaceSides";
+template <>
 inline constexpr const char* enum_name<Tracing> = "Tracing";
 template <>
 inline constexpr const char* enum_name<Checks> = "Checks";
@@ -131,6 +133,8 @@ struct ArrayCaster {
     }
 };
 
+template <>
+struct type_caster<Eigen::Vector2d> : ArrayCaster<Eigen::Vector2d, 2, 1> {};
 template <>
 struct type_caster<cairn::Vec3> : ArrayCaster<cairn::Vec3, 3, 1> {};
 template <>

@@ -96,6 +96,7 @@ void bindEnums(py::module_& module) {
     bindEnum<Touch>(module, {"never", "always"}, "Whether two bodies may touch.");
     bindEnum<TableEnd>(module, {"hold", "repeat"}, "What a table of motion does after its last time.");
     bindEnum<Baseline>(module, {"none", "at_rest"}, "How an accelerogram is brought to an end.");
+    bindEnum<SurfaceSides>(module, {"one", "two"}, "Which sides of a surface touch others.");
     bindEnum<Stage>(
         module,
         {"events", "positions", "detection", "batches", "correction", "velocities", "resolution", "sleeping", "output"},

@@ -8,6 +8,7 @@ PYBIND11_MODULE(_core, module) {
     module.doc() = "Cairn's C++ library.";
     bindErrors(module);
     bindEnums(module);
+    bindSurfaces(module);
     bindBodyRecords(module);
     bindSettings(module);
     bindReports(module);

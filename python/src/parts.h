@@ -8,6 +8,7 @@ namespace cairn::python {
 void bindErrors(pybind11::module_& module);
 void bindEnums(pybind11::module_& module);
 void bindBodyRecords(pybind11::module_& module);
+void bindSurfaces(pybind11::module_& module);
 void bindSettings(pybind11::module_& module);
 void bindReports(pybind11::module_& module);
 void bindQueryRecords(pybind11::module_& module);

@@ -85,7 +85,7 @@ void bindShapes(py::module_& module) {
     bindHull(module);
     Record<CompoundPart> part(module, "CompoundPart", "A shape of a compound.");
     Record<Compound> compound(module, "Compound", "Several shapes that move as one body.");
-    part.field("shape", &CompoundPart::shape, "Any but half-spaces and compounds.")
+    part.field("shape", &CompoundPart::shape, "Any solid but compounds.")
         .field("pose", &CompoundPart::pose, "Of the shape in the compound's frame.")
         .field("mass", &CompoundPart::mass, "[kg], > 0")
         .field("density", &CompoundPart::density,

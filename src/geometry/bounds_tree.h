@@ -37,6 +37,7 @@ class BoundsTree {
     /// Whether refits left so much empty space in the tree that building it anew pays.
     bool isWorn() const { return cost_ > worn * built_cost_; }
     std::size_t size() const { return size_; }
+    std::size_t bytes() const { return nodes_.capacity() * sizeof(Node) + items_.capacity() * sizeof(std::uint32_t); }
 
     /// Calls visit(item) for every item whose bounds overlap a box.
     template <class Visit>

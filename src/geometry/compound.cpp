@@ -19,7 +19,7 @@ void requirePositive(const std::optional<double>& value, std::size_t index, std:
 }
 
 void validatePart(const CompoundPart& part, std::size_t index) {
-    if (isInfinite(part.shape) || std::holds_alternative<Compound>(part.shape)) {
+    if (!isSolid(part.shape) || std::holds_alternative<Compound>(part.shape)) {
         throw InputError(
             fmt::format("part {} of a compound is a {}; it must be a sphere, box, capsule, cylinder or hull", index,
                         shapeName(part.shape)));

@@ -14,8 +14,9 @@ namespace {
 using EntryOf = const ShapeEntry& (*)();
 
 /// In the order of the alternatives of Shape.
-constexpr std::array<EntryOf, std::variant_size_v<Shape>> entries = {
-    sphereEntry, boxEntry, capsuleEntry, halfSpaceEntry, cylinderEntry, hullEntry, compoundEntry};
+constexpr std::array<EntryOf, std::variant_size_v<Shape>> entries = {sphereEntry,    boxEntry,      capsuleEntry,
+                                                                     halfSpaceEntry, cylinderEntry, hullEntry,
+                                                                     compoundEntry,  meshEntry,     heightFieldEntry};
 
 const ShapeEntry& entryOf(const Shape& shape) {
     return entries[shape.index()]();
@@ -39,6 +40,10 @@ void validateShape(const Shape& shape) {
 
 bool isInfinite(const Shape& shape) {
     return entryOf(shape).support == nullptr;
+}
+
+bool isSolid(const Shape& shape) {
+    return !isInfinite(shape) && surfaceOf(shape) == nullptr;
 }
 
 UnitMassProperties unitMassProperties(const Shape& shape) {

@@ -50,21 +50,31 @@ struct LocalRay {
 struct LocalHit {
     double distance;         ///< from the origin of the ray [m]
     Vec3 normal;             ///< unit, outward, in the frame of the shape
-    std::uint32_t part = 0;  ///< of a compound
+    std::uint32_t part = 0;  ///< of a compound, or triangle of a surface
 };
 
-/// "sphere", "box", "capsule", "plane", "cylinder", "hull", "compound": the name in scene files.
+/// "sphere", "box", "capsule", "plane", "cylinder", "hull", "compound", "mesh", "height_field": the name in scene
+/// files.
 std::string_view shapeName(const Shape& shape);
 /// @throws InputError if a dimension is not finite or not positive; the text names it
 void validateShape(const Shape& shape);
-/// True if the shape has no bounds and therefore must be fixed.
+/// True if the shape has no bounds.
 bool isInfinite(const Shape& shape);
+/// True if the shape encloses mass; others must be fixed.
+bool isSolid(const Shape& shape);
+/// The triangles of a mesh or height field; null for other shapes.
+inline const SurfaceData* surfaceOf(const Shape& shape) {
+    if (const auto* mesh = std::get_if<Mesh>(&shape)) return &mesh->data();
+    if (const auto* field = std::get_if<HeightField>(&shape)) return &field->data();
+    return nullptr;
+}
 /// @pre validateShape(shape)
 UnitMassProperties unitMassProperties(const Shape& shape);
 /// Largest distance of a surface point from the centre of mass [m]: r_max of thesis (3.2.2); infinite for a half-space.
+/// Of a surface that from the origin of its frame.
 double largestRadius(const Shape& shape);
 /// Radius of a ball that fits into the shape about its middle [m]: half of what a box or a plate is thick, and of a
-/// compound that of its thinnest part; infinite for a half-space.
+/// compound that of its thinnest part; infinite for half-spaces and surfaces.
 double smallestRadius(const Shape& shape);
 /// Bounds of the posed shape, as tight as an axis-aligned box can be. @param pose of B in W
 Bounds boundsOf(const Shape& shape, const Pose& pose);

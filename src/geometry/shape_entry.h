@@ -61,6 +61,8 @@ const ShapeEntry& halfSpaceEntry();
 const ShapeEntry& cylinderEntry();
 const ShapeEntry& hullEntry();
 const ShapeEntry& compoundEntry();
+const ShapeEntry& meshEntry();
+const ShapeEntry& heightFieldEntry();
 
 /// Smallest and largest length of a shape [m]: between them no volume, inertia or inverse leaves the range of double,
 /// and tiny_length stays far below any shape.

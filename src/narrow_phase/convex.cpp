@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 
@@ -64,8 +65,33 @@ Convex::Convex(const ConvexHull& hull, const Pose& pose, const Vec3& origin)
     centre_ = hull_origin_ + axes_ * hull_->mass.centre;
 }
 
+/// It has no extent of its own: what is small beside the other shape is not small beside a surface.
+Convex::Convex(const ConvexTriangle& triangle)
+    : kind_(Kind::triangle),
+      centre_((triangle.corners[0] + triangle.corners[1] + triangle.corners[2]) / 3),
+      triangle_(&triangle),
+      smallest_(std::numeric_limits<double>::infinity()) {
+    for (const Vec3& corner : triangle.corners) reach_ = std::max(reach_, (corner - centre_).norm());
+}
+
+Convex convexOf(const Shape& shape, const Pose& pose, const Vec3& origin) {
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) return {*sphere, pose, origin};
+    if (const auto* box = std::get_if<Box>(&shape)) return {*box, pose, origin};
+    if (const auto* capsule = std::get_if<Capsule>(&shape)) return {*capsule, pose, origin};
+    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return {*cylinder, pose, origin};
+    return {*std::get_if<ConvexHull>(&shape), pose, origin};
+}
+
 Vec3 Convex::support(const Vec3& direction) const {
     if (kind_ == Kind::point) return centre_;
+    if (kind_ == Kind::triangle) {
+        const auto& [a, b, c] = triangle_->corners;
+        const double at_a = a.dot(direction);
+        const double at_b = b.dot(direction);
+        const double at_c = c.dot(direction);
+        if (at_b > at_a) return at_c > at_b ? c : b;
+        return at_c > at_a ? c : a;
+    }
     const Vec3 d = axes_.transpose() * direction;
     if (kind_ == Kind::hull) {
         const std::vector<Vec3>& corners = hull_->corners;
@@ -101,6 +127,8 @@ void Convex::findFeature(const Vec3& direction, Feature& feature) const {
             return findLine(direction, feature);
         case Kind::hull:
             return findHullFace(direction, feature);
+        case Kind::triangle:
+            return findTriangleFace(direction, feature);
         case Kind::cylinder:
             return findCylinderFeature(direction, feature);
     }
@@ -139,6 +167,17 @@ void Convex::findHullFace(const Vec3& direction, Feature& feature) const {
     }
     const Vec3 normal = axes_ * best->normal;
     feature.face = {normal, normal.dot(hull_origin_) + best->offset};
+}
+
+/// Of the side that faces the direction.
+void Convex::findTriangleFace(const Vec3& direction, Feature& feature) const {
+    const auto& [a, b, c] = triangle_->corners;
+    const bool front = triangle_->normal.dot(direction) >= 0;
+    feature.corners.add(a);
+    feature.corners.add(front ? b : c);
+    feature.corners.add(front ? c : b);
+    const Vec3 normal = front ? triangle_->normal : Vec3(-triangle_->normal);
+    feature.face = {normal, normal.dot(a)};
 }
 
 void Convex::findLine(const Vec3& direction, Feature& feature) const {

@@ -18,6 +18,12 @@ struct Feature {
     bool isLine() const { return corners.size == 2; }
 };
 
+/// A triangle of a surface as convex shapes meet it.
+struct ConvexTriangle {
+    std::array<Vec3, 3> corners;  ///< in the frame of the convex shapes
+    Vec3 normal;                  ///< unit, about which the corners run counter-clockwise
+};
+
 /// A posed convex shape: all points within a radius of its core. Its frame has the axes of W and an origin near both
 /// bodies.
 class Convex {
@@ -28,6 +34,8 @@ class Convex {
     Convex(const Capsule& capsule, const Pose& pose, const Vec3& origin);
     Convex(const Cylinder& cylinder, const Pose& pose, const Vec3& origin);
     Convex(const ConvexHull& hull, const Pose& pose, const Vec3& origin);
+    /// @param triangle in this frame; must live as long
+    explicit Convex(const ConvexTriangle& triangle);
 
     /// The point of the core farthest in a direction of any length. @return [m]
     Vec3 support(const Vec3& direction) const;
@@ -45,10 +53,11 @@ class Convex {
     double smallest() const { return smallest_; }  ///< smallest half extent [m]
 
   private:
-    enum class Kind : std::uint8_t { point, box, line, cylinder, hull };
+    enum class Kind : std::uint8_t { point, box, line, cylinder, hull, triangle };
 
     void findBoxFace(const Vec3& direction, Feature& feature) const;
     void findHullFace(const Vec3& direction, Feature& feature) const;
+    void findTriangleFace(const Vec3& direction, Feature& feature) const;
     void findLine(const Vec3& direction, Feature& feature) const;
     void findCylinderFeature(const Vec3& direction, Feature& feature) const;
     void addCap(const Vec3& direction, double end, Feature& feature) const;
@@ -57,12 +66,16 @@ class Convex {
     Mat3 axes_ = Mat3::Identity();  ///< shape's frame to W
     Vec3 centre_;
     const HullData* hull_ = nullptr;
+    const ConvexTriangle* triangle_ = nullptr;
     Vec3 hull_origin_ = Vec3::Zero();  ///< of the frame of a hull's corners
     Vec3 half_ = Vec3::Zero();         ///< half extents; of a cylinder radius, radius and half length
     double rounding_ = 0;
     double reach_ = 0;
     double smallest_ = 0;
 };
+
+/// Any solid shape but a compound.
+Convex convexOf(const Shape& shape, const Pose& pose, const Vec3& origin);
 
 /// Of the corners of a larger face so many stand for it, evenly spread.
 inline constexpr std::size_t most_face_corners = 16;

@@ -97,8 +97,8 @@ class TesterTable {
     Tester at(const Shape& a, const Shape& b) const { return testers_[a.index()][b.index()]; }
 
   private:
-    /// Compounds, the last kind, meet others by their parts.
-    static constexpr std::size_t kinds = std::variant_size_v<Shape> - 1;
+    /// Compounds, which meet others by their parts, and surfaces come after them.
+    static constexpr std::size_t kinds = 6;
     static_assert(std::is_same_v<std::variant_alternative_t<kinds, Shape>, Compound>);
 
     template <class S, std::size_t kind = 0>

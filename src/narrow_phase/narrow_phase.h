@@ -4,16 +4,20 @@
 #include <array>
 #include <cassert>
 #include <cstddef>
+#include <cstdint>
+#include <utility>
 
 #include "cairn/shape.h"
 #include "geometry/geometry.h"
+#include "parallel/function_ref.h"
 
 namespace cairn {
 
 /// One point of a manifold.
 struct ManifoldPoint {
-    Vec3 point;       ///< halfway between the two surfaces [m, W]
-    double distance;  ///< along the normal [m]; negative = overlap
+    Vec3 point;                  ///< halfway between the two surfaces [m, W]
+    double distance;             ///< along the normal [m]; negative = overlap
+    std::uint32_t triangle = 0;  ///< that it is on, where one shape is a surface
 };
 
 /// All points in which two convex shapes touch; they share one normal.
@@ -25,9 +29,9 @@ struct Manifold {
     std::array<ManifoldPoint, capacity> points;
 
     /// @pre size < capacity
-    void add(const Vec3& point, double distance) {
+    void add(const Vec3& point, double distance, std::uint32_t triangle = 0) {
         assert(size < capacity);
-        points[size++] = {point, distance};
+        points[size++] = {point, distance, triangle};
     }
 };
 
@@ -37,11 +41,25 @@ struct Manifold {
 /// @param manifold its size is 0 where the shapes are farther apart than the margin
 /// Swapping A and B gives the same points with the opposite normal. Any pose gives finite numbers.
 /// Two half-spaces never touch (both are fixed).
-/// @pre neither is a compound, whose parts meet others one by one (forEachManifold)
+/// @pre neither is a compound, whose parts meet others one by one, or a surface (forEachManifold)
 void collide(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b, const Pose& pose_b, double margin,
              Manifold& manifold);
 
-/// As collide(), for any two shapes: finds the contacts of all parts of compounds.
+/// A shape and a surface, in this order.
+struct SurfacePair {
+    const Shape& shape;  ///< solid and no compound
+    Pose pose;
+    const SurfaceData& surface;
+    Pose surface_pose;
+};
+
+/// Finds all contacts of a solid shape with a surface: one manifold per face of coplanar triangles, as with the plane
+/// of the face, and those with edges and corners that stand out. Inner edges that are flat or concave touch nothing.
+/// @param use is called with each manifold; its normal points to the shape
+void collideSurface(const SurfacePair& pair, double margin, FunctionRef<void(Manifold&)> use);
+
+/// As collide(), for any two shapes: finds the contacts of all parts of compounds and with surfaces. Two surfaces, and
+/// surfaces and half-spaces, never touch.
 /// @param manifold for use in between @param use is called with each manifold that is not empty
 template <class Use>
 void forEachManifold(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b, const Pose& pose_b, double margin,
@@ -60,6 +78,16 @@ void forEachManifold(const Shape& shape_a, const Pose& pose_a, const Shape& shap
             if (!boundsOf(part.shape, pose).overlaps(other)) continue;
             forEachManifold(shape_a, pose_a, part.shape, pose, margin, manifold, use);
         }
+    } else if (const SurfaceData* surface = surfaceOf(shape_b); surface != nullptr) {
+        if (!isSolid(shape_a)) return;
+        collideSurface({shape_a, pose_a, *surface, pose_b}, margin,
+                       [&](Manifold& found) { use(std::as_const(found)); });
+    } else if (surface = surfaceOf(shape_a); surface != nullptr) {
+        if (!isSolid(shape_b)) return;
+        collideSurface({shape_b, pose_b, *surface, pose_a}, margin, [&](Manifold& found) {
+            found.normal = -found.normal;
+            use(std::as_const(found));
+        });
     } else {
         collide(shape_a, pose_a, shape_b, pose_b, margin, manifold);
         if (manifold.size > 0) use(manifold);

@@ -45,7 +45,8 @@ void collidePair(const BodyStorage& bodies, const BodyPair& pair, const Detectio
         // Within one manifold points are apart already.
         const std::size_t earlier = contacts.size() - first;
         for (std::size_t k = 0; k < found.size; ++k) {
-            const auto& [point, distance] = found.points[k];
+            const Vec3& point = found.points[k].point;
+            const double distance = found.points[k].distance;
             const double apart = distance - margin;
             touches = touches || distance <= 0 || (apart <= 0 && !ahead.isAny());
             if (apart > 0 && !ahead.closes(point, found.normal, apart)) continue;

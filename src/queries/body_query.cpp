@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "geometry/surface_data.h"
 #include "queries/shape_pair.h"
 
 namespace cairn {
@@ -16,16 +17,18 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Calls visit(part) for the parts of a target whose bounds overlap a box of W.
 template <class Visit>
 void forEachPart(const Target& target, const Bounds& box, const Visit& visit) {
+    const SurfaceData* surface = surfaceOf(target.shape);
     const auto* compound = std::get_if<Compound>(&target.shape);
-    if (compound == nullptr) return visit(std::uint32_t{0});
-    if (target.parts != nullptr && box.lower.allFinite() && box.upper.allFinite()) {
+    if (compound == nullptr && surface == nullptr) return visit(std::uint32_t{0});
+    const BoundsTree* tree = surface != nullptr ? &surface->tree : target.parts;
+    if (tree != nullptr && box.lower.allFinite() && box.upper.allFinite()) {
         // The box turned into the frame of the compound, in bounds of its own.
         const Vec3 half = 0.5 * (box.upper - box.lower);
         const Vec3 centre = target.pose.toInner(box.lower + half);
         const Vec3 extent = target.pose.orientation.conjugate().toRotationMatrix().cwiseAbs() * half;
-        return target.parts->forEachOverlapping(widened({centre - extent, centre + extent}), visit);
+        return tree->forEachOverlapping(widened({centre - extent, centre + extent}), visit);
     }
-    for (std::uint32_t i = 0; i < compound->parts.size(); ++i) visit(i);
+    for (std::uint32_t i = 0; i < partCount(target.shape); ++i) visit(i);
 }
 
 /// The ray in the frame of a target.
@@ -82,7 +85,9 @@ std::vector<Bounds> boundsOfParts(const Compound& compound) {
 std::optional<SurfaceHit> castRayAt(const Target& target, const Ray& ray) {
     const LocalRay local = localRay(target, ray);
     std::optional<LocalHit> best;
-    if (target.parts == nullptr) {
+    if (const SurfaceData* surface = surfaceOf(target.shape)) {
+        best = castRay(*surface, local, ray.reach);
+    } else if (target.parts == nullptr) {
         best = castRay(target.shape, local);
         if (best && best->distance > ray.reach) best.reset();
     } else {
@@ -102,6 +107,13 @@ std::optional<SurfaceHit> castRayAt(const Target& target, const Ray& ray) {
 
 void castRayThrough(const Target& target, const Ray& ray, std::vector<SurfaceHit>& hits) {
     const LocalRay local = localRay(target, ray);
+    if (const SurfaceData* surface = surfaceOf(target.shape)) {
+        surface->tree.forEachAlong({local.origin, local.direction}, ray.reach, [&](std::uint32_t triangle) {
+            const std::optional<LocalHit> hit = castRayAt(*surface, triangle, local);
+            if (hit && hit->distance <= ray.reach) hits.push_back(outerHit(target, ray, *hit));
+        });
+        return;
+    }
     const auto* compound = std::get_if<Compound>(&target.shape);
     if (compound == nullptr) {
         if (const auto hit = castRayAt(target, ray)) hits.push_back(*hit);
@@ -134,10 +146,10 @@ void findOverlaps(const AskedShape& asked, const Target& target, std::vector<std
     parts.clear();
     for (std::uint32_t i = 0; i < partCount(asked.shape); ++i) {
         const Placed part = placedPart(asked.shape, asked.pose, i);
-        const Bounds bounds = widened(boundsOf(part.shape, part.pose));
+        const Bounds bounds = widened(boundsOf(part));
         forEachPart(target, bounds, [&](std::uint32_t k) {
             const Placed other = placedPart(target.shape, target.pose, k);
-            if (!bounds.overlaps(widened(boundsOf(other.shape, other.pose)))) return;
+            if (!bounds.overlaps(widened(boundsOf(other)))) return;
             if (closestOfParts(part, other, 0)) parts.push_back(k);
         });
     }
@@ -149,11 +161,11 @@ std::optional<ClosestPoints> closestAt(const AskedShape& asked, const Target& ta
     std::optional<ClosestPoints> best;
     for (std::uint32_t i = 0; i < partCount(asked.shape); ++i) {
         const Placed part = placedPart(asked.shape, asked.pose, i);
-        const Bounds bounds = widened(boundsOf(part.shape, part.pose));
+        const Bounds bounds = widened(boundsOf(part));
         forEachPart(target, bounds.grown(limit), [&](std::uint32_t k) {
             const Placed other = placedPart(target.shape, target.pose, k);
             const double farthest = best ? std::max(best->distance, 0.0) : limit;
-            if (gapOf(bounds, widened(boundsOf(other.shape, other.pose))) > farthest) return;
+            if (gapOf(bounds, widened(boundsOf(other))) > farthest) return;
             std::optional<ClosestPoints> found = closestOfParts(part, other, farthest);
             if (!found) return;
             found->part_a = i;
@@ -165,14 +177,15 @@ std::optional<ClosestPoints> closestAt(const AskedShape& asked, const Target& ta
 }
 
 void requireBounded(const Shape& moving) {
-    if (!isInfinite(moving)) return;
-    throw InputError(fmt::format("a {} has no bounds and cannot move; cast another shape", shapeName(moving)));
+    if (isSolid(moving)) return;
+    throw InputError(fmt::format("a {} {} and cannot move; cast another shape", shapeName(moving),
+                                 isInfinite(moving) ? "has no bounds" : "is a surface"));
 }
 
 void requireClosest(const Shape& a, const Shape& b) {
-    if (!isInfinite(a) || !isInfinite(b)) return;
-    throw InputError(fmt::format("a {} and a {} have no closest points; at least one shape must be bounded",
-                                 shapeName(a), shapeName(b)));
+    if (isSolid(a) || isSolid(b)) return;
+    throw InputError(fmt::format("a {} and a {} have no closest points; at least one shape must be solid", shapeName(a),
+                                 shapeName(b)));
 }
 
 }  // namespace cairn

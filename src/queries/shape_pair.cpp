@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/half_space.h"
+#include "geometry/surface_data.h"
 #include "narrow_phase/separation.h"
 
 namespace cairn {
@@ -20,13 +21,25 @@ constexpr double touching_part = 1e-9;
 /// Where shapes pass each other closely every step may only halve the gap.
 constexpr int most_steps = 100;
 
-/// @pre no half-space, no compound
-Convex convexOf(const Placed& placed, const Vec3& origin) {
-    if (const auto* sphere = std::get_if<Sphere>(&placed.shape)) return {*sphere, placed.pose, origin};
-    if (const auto* box = std::get_if<Box>(&placed.shape)) return {*box, placed.pose, origin};
-    if (const auto* capsule = std::get_if<Capsule>(&placed.shape)) return {*capsule, placed.pose, origin};
-    if (const auto* cylinder = std::get_if<Cylinder>(&placed.shape)) return {*cylinder, placed.pose, origin};
-    return {*std::get_if<ConvexHull>(&placed.shape), placed.pose, origin};
+/// A shape as a convex one. @param triangle room for that of a surface @pre no half-space, no compound
+Convex coreOf(const Placed& placed, const Vec3& origin, ConvexTriangle& triangle) {
+    const SurfaceData* surface = surfaceOf(placed.shape);
+    if (surface == nullptr) return convexOf(placed.shape, placed.pose, origin);
+    for (std::size_t k = 0; k < 3; ++k) {
+        triangle.corners[k] = placed.pose.toOuter(surface->corner(placed.triangle, k)) - origin;
+    }
+    triangle.normal = placed.pose.orientation * surface->face(placed.triangle).normal;
+    return Convex(triangle);
+}
+
+/// Farthest point in a direction. @param direction unit [W]
+Vec3 farthestOf(const Placed& placed, const Vec3& direction) {
+    const Vec3 local = placed.pose.orientation.conjugate() * direction;
+    const SurfaceData* surface = surfaceOf(placed.shape);
+    if (surface == nullptr) return placed.pose.toOuter(support(placed.shape, local));
+    const std::array<Vec3, 3> corners = surface->corners(placed.triangle);
+    return placed.pose.toOuter(
+        *std::ranges::max_element(corners, {}, [&](const Vec3& corner) { return corner.dot(local); }));
 }
 
 ClosestPoints swapped(const ClosestPoints& found) {
@@ -36,7 +49,7 @@ ClosestPoints swapped(const ClosestPoints& found) {
 /// The lowest point of a bounded shape above a half-space.
 ClosestPoints aboveHalfSpace(const Placed& a, const HalfSpace& ground, const Pose& pose) {
     const Vec3 normal = pose.orientation * unitNormal(ground);
-    const Vec3 lowest = a.pose.toOuter(support(a.shape, a.pose.orientation.conjugate() * Vec3(-normal)));
+    const Vec3 lowest = farthestOf(a, -normal);
     const double height = normal.dot(lowest - pose.position) - ground.offset;
     return {height, lowest, lowest - height * normal, normal, 0, 0};
 }
@@ -55,14 +68,28 @@ std::optional<ClosestPoints> within(const ClosestPoints& found, double limit) {
 }  // namespace
 
 std::size_t partCount(const Shape& shape) {
+    if (const SurfaceData* surface = surfaceOf(shape)) return surface->triangles.size();
     const auto* compound = std::get_if<Compound>(&shape);
     return compound != nullptr ? compound->parts.size() : 1;
 }
 
 Placed placedPart(const Shape& shape, const Pose& pose, std::size_t part) {
     const auto* compound = std::get_if<Compound>(&shape);
-    if (compound == nullptr) return {shape, pose};
+    if (compound == nullptr) return {shape, pose, static_cast<std::uint32_t>(part)};
     return {compound->parts[part].shape, pose.toOuter(compound->parts[part].pose)};
+}
+
+Bounds boundsOf(const Placed& placed) {
+    const SurfaceData* surface = surfaceOf(placed.shape);
+    if (surface == nullptr) return boundsOf(placed.shape, placed.pose);
+    Vec3 lower = placed.pose.toOuter(surface->corner(placed.triangle, 0));
+    Vec3 upper = lower;
+    for (std::size_t k = 1; k < 3; ++k) {
+        const Vec3 corner = placed.pose.toOuter(surface->corner(placed.triangle, k));
+        lower = lower.cwiseMin(corner);
+        upper = upper.cwiseMax(corner);
+    }
+    return {lower, upper};
 }
 
 std::optional<ClosestPoints> closestOfParts(const Placed& a, const Placed& b, double limit) {
@@ -72,8 +99,10 @@ std::optional<ClosestPoints> closestOfParts(const Placed& a, const Placed& b, do
     if (ground_b != nullptr) return within(aboveHalfSpace(a, *ground_b, b.pose), limit);
     if (ground_a != nullptr) return within(swapped(aboveHalfSpace(b, *ground_a, a.pose)), limit);
     const Vec3& origin = a.pose.position;
-    const Convex convex_a = convexOf(a, origin);
-    const Convex convex_b = convexOf(b, origin);
+    ConvexTriangle triangle_a;
+    ConvexTriangle triangle_b;
+    const Convex convex_a = coreOf(a, origin, triangle_a);
+    const Convex convex_b = coreOf(b, origin, triangle_b);
     Separation found;
     // A little farther, so that rounding on the way to the distance does not decide what is within the limit.
     const double farthest = (limit + convex_a.rounding() + convex_b.rounding()) * (1 + 1e-9);

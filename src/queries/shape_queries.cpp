@@ -2,6 +2,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include "cairn/query.h"
 #include "narrow_phase/narrow_phase.h"
@@ -41,6 +43,36 @@ ClosestPoints closestPoints(const Shape& a, const Pose& pose_a, const Shape& b, 
     return closestAt({asked, checkedPose(pose_a)}, {met, checkedPose(pose_b), nullptr}, everywhere).value();
 }
 
+namespace {
+
+struct PosedSurface {
+    const SurfaceData& surface;
+    Pose pose;
+};
+
+/// Of all parts of a solid shape, which is A.
+void addSurfaceContacts(const AskedShape& asked, const PosedSurface& other, double margin,
+                        std::vector<ShapeContact>& contacts) {
+    for (std::uint32_t i = 0; i < partCount(asked.shape); ++i) {
+        const Placed part = placedPart(asked.shape, asked.pose, i);
+        collideSurface({part.shape, part.pose, other.surface, other.pose}, margin, [&](const Manifold& found) {
+            for (std::size_t p = 0; p < found.size; ++p) {
+                const ManifoldPoint& point = found.points[p];
+                contacts.push_back({point.point, found.normal, point.distance, i, point.triangle});
+            }
+        });
+    }
+}
+
+void swapShapes(std::vector<ShapeContact>& contacts) {
+    for (ShapeContact& contact : contacts) {
+        contact.normal = -contact.normal;
+        std::swap(contact.part_a, contact.part_b);
+    }
+}
+
+}  // namespace
+
 std::vector<ShapeContact> contactsOf(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                                      double margin) {
     const Shape shape_a = checkedShape(a);
@@ -49,6 +81,15 @@ std::vector<ShapeContact> contactsOf(const Shape& a, const Pose& pose_a, const S
     const Pose at_b = checkedPose(pose_b);
     requireReach(margin, "the margin of contacts");
     std::vector<ShapeContact> contacts;
+    const SurfaceData* surface_a = surfaceOf(shape_a);
+    const SurfaceData* surface_b = surfaceOf(shape_b);
+    if (surface_a != nullptr || surface_b != nullptr) {
+        if (isSolid(shape_a)) addSurfaceContacts({shape_a, at_a}, {*surface_b, at_b}, margin, contacts);
+        if (isSolid(shape_b)) addSurfaceContacts({shape_b, at_b}, {*surface_a, at_a}, margin, contacts);
+        if (surface_a != nullptr) swapShapes(contacts);
+        std::ranges::stable_sort(contacts, {}, [](const ShapeContact& c) { return std::tuple(c.part_a, c.part_b); });
+        return contacts;
+    }
     Manifold manifold;
     for (std::uint32_t i = 0; i < partCount(shape_a); ++i) {
         const Placed part_a = placedPart(shape_a, at_a, i);

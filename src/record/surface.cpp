@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "geometry/hull_data.h"
+#include "geometry/surface_data.h"
 
 namespace cairn {
 
@@ -113,6 +114,16 @@ Surface hullSurface(const ConvexHull& hull) {
     return surface;
 }
 
+Surface trianglesSurface(const SurfaceData& data) {
+    Surface surface;
+    surface.points = data.vertices;
+    for (const TriangleCorners& triangle : data.triangles) {
+        for (const std::uint32_t corner : triangle) surface.corners.push_back(static_cast<std::int32_t>(corner));
+        surface.ends.push_back(static_cast<std::int32_t>(surface.corners.size()));
+    }
+    return surface;
+}
+
 Surface compoundSurface(const Compound& compound, const PlaneExtent& extent) {
     Surface surface;
     for (const CompoundPart& part : compound.parts) {
@@ -137,6 +148,8 @@ Surface makeSurface(const Shape& shape, const PlaneExtent& extent) {
         Surface operator()(const Cylinder& c) const { return cylinderSurface(c); }
         Surface operator()(const ConvexHull& h) const { return hullSurface(h); }
         Surface operator()(const Compound& c) const { return compoundSurface(c, extent); }
+        Surface operator()(const Mesh& m) const { return trianglesSurface(m.data()); }
+        Surface operator()(const HeightField& f) const { return trianglesSurface(f.data()); }
         Surface operator()(const HalfSpace& h) const { return planeSurface(h, extent); }
     };
     return std::visit(Visitor{extent}, shape);

@@ -79,11 +79,12 @@ Mat3 readInertia(const JsonNode& node) {
 /// Members that contradict each other.
 void checkBody(const JsonNode& node, const SceneBody& body, const SceneReading& reading) {
     const bool moves = !body.linear_velocity.isZero(0) || !body.angular_velocity.isZero(0);
-    if (std::holds_alternative<HalfSpace>(body.shape)) {
-        if (!body.fixed) node.fail("is a plane that is not fixed; a plane needs \"fixed\": true");
-        if (body.mass) node.fail("is a plane with a mass; a plane is fixed and has none, remove mass");
+    if (!isSolid(body.shape)) {
+        const std::string_view name = shapeName(body.shape);
+        if (!body.fixed) node.fail(fmt::format("is a {0} that is not fixed; a {0} needs \"fixed\": true", name));
+        if (body.mass) node.fail(fmt::format("is a {0} with a mass; a {0} is fixed and has none, remove mass", name));
         if (body.centre_of_mass || body.inertia) {
-            node.fail("is a plane with a centre of mass or an inertia; a plane has none, remove them");
+            node.fail(fmt::format("is a {0} with a centre of mass or an inertia; a {0} has none, remove them", name));
         }
     }
     if (body.fixed && moves) node.fail("is fixed and has a velocity; a fixed body never moves, remove one of them");
@@ -91,7 +92,7 @@ void checkBody(const JsonNode& node, const SceneBody& body, const SceneReading& 
     if (body.asleep && moves) {
         node.fail("is asleep and has a velocity; a sleeping body is at rest, remove asleep or the velocities");
     }
-    if (!isInfinite(body.shape)) checkMass(node, body, reading.density.at(body.material));
+    if (isSolid(body.shape)) checkMass(node, body, reading.density.at(body.material));
 }
 
 /// Groups and what the body feels of its own.

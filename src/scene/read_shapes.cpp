@@ -1,5 +1,8 @@
 #include <fmt/core.h>
 
+#include <filesystem>
+
+#include "cairn/mesh_file.h"
 #include "geometry/geometry.h"
 #include "scene/scene_reading.h"
 
@@ -10,7 +13,7 @@ namespace {
 constexpr double smallest_quaternion = 1e-6;
 constexpr double largest_quaternion = 1e6;
 
-constexpr std::string_view shape_types = "sphere, box, capsule, cylinder, hull, compound or plane";
+constexpr std::string_view shape_types = "sphere, box, capsule, cylinder, hull, compound, plane, mesh or height_field";
 
 double readLength(const JsonNode& node, std::string_view key) {
     return node.required(key, "a number above 0 [m]").positive();
@@ -46,11 +49,113 @@ Shape readHull(const JsonNode& node) {
     }
 }
 
+/// The file that a shape names, from the folder of its scene on.
+std::filesystem::path fileOf(const JsonNode& node) {
+    const std::filesystem::path file(node.text());
+    return file.is_absolute() ? file : std::filesystem::path(node.source()).parent_path() / file;
+}
+
+/// Does what may refuse a shape, with the node in its message.
+template <class Build>
+Shape built(const JsonNode& node, const Build& build) {
+    try {
+        return build();
+    } catch (const InputError& error) {
+        node.fail(fmt::format("is refused: {}", error.what()));
+    } catch (const IoError& error) {
+        node.fail(fmt::format("names a file that fails: {}", error.what()));
+    }
+}
+
+void requireOneOf(const JsonNode& node, std::string_view first, std::string_view second) {
+    if (node.find(first).has_value() == node.find(second).has_value()) {
+        node.fail(fmt::format("needs either {} or {}", first, second));
+    }
+}
+
+/// One number for all axes, or three.
+Vec3 readScale(const JsonNode& node) {
+    return node.value().is_array() ? node.vector() : Vec3::Constant(node.positive());
+}
+
+std::vector<TriangleCorners> readTriangles(const JsonNode& list) {
+    list.expectArray("an array of triangles, each of three indices of vertices");
+    std::vector<TriangleCorners> triangles;
+    triangles.reserve(list.size());
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const JsonNode triangle = list.element(i);
+        if (!triangle.value().is_array() || triangle.size() != 3) triangle.refuse("three indices of vertices");
+        TriangleCorners& corners = triangles.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Json& index = triangle.element(k).value();
+            if (!index.is_number_unsigned() || index.get<std::uint64_t>() > UINT32_MAX) {
+                triangle.element(k).refuse("the index of a vertex, a whole number from 0 on");
+            }
+            corners[k] = index.get<std::uint32_t>();
+        }
+    }
+    return triangles;
+}
+
+Shape readMeshShape(const JsonNode& node) {
+    node.expectKeys({"type", "file", "vertices", "indices", "scale", "sides"});
+    const auto scale_node = node.find("scale");
+    const Vec3 scale = scale_node ? readScale(*scale_node) : Vec3::Ones();
+    SurfaceSides sides = SurfaceSides::one;
+    if (const auto given = node.find("sides")) {
+        const std::string name = given->text();
+        if (name != "one" && name != "two") given->refuse("one or two");
+        sides = name == "one" ? SurfaceSides::one : SurfaceSides::two;
+    }
+    requireOneOf(node, "file", "vertices");
+    if (const auto file = node.find("file")) {
+        if (node.find("indices")) node.fail("has a file and indices; the file has its own, remove them");
+        return built(*file, [&] { return readMesh(fileOf(*file), sides, scale); });
+    }
+    const JsonNode list = node.required("vertices", "an array of points [m]");
+    list.expectArray("an array of points [m]");
+    std::vector<Vec3> vertices;
+    vertices.reserve(list.size());
+    for (std::size_t i = 0; i < list.size(); ++i) vertices.push_back(list.element(i).vector());
+    auto triangles = readTriangles(node.required("indices", "an array of triangles, each of three indices"));
+    return built(node, [&] { return Mesh(std::move(vertices), std::move(triangles), sides, scale); });
+}
+
+Eigen::Vector2d readSpacing(const JsonNode& node) {
+    if (!node.value().is_array()) return Eigen::Vector2d::Constant(node.positive());
+    if (node.size() != 2) node.refuse("a number above 0, or two: of columns and of rows [m]");
+    return {node.element(0).positive(), node.element(1).positive()};
+}
+
+Shape readHeightFieldShape(const JsonNode& node) {
+    node.expectKeys({"type", "heights", "file", "spacing", "scale"});
+    const Eigen::Vector2d spacing = readSpacing(node.required("spacing", "a number above 0, or two [m]"));
+    const auto scale_node = node.find("scale");
+    const double scale = scale_node ? scale_node->number() : 1;
+    requireOneOf(node, "file", "heights");
+    if (const auto file = node.find("file")) {
+        return built(*file, [&] { return readHeightField(fileOf(*file), spacing, scale); });
+    }
+    const JsonNode rows = node.required("heights", "an array of rows of heights [m]");
+    rows.expectArray("an array of rows of heights [m]");
+    std::vector<double> heights;
+    std::size_t columns = 0;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        const JsonNode line = rows.element(row);
+        line.expectArray("a row of heights [m]");
+        if (row == 0) columns = line.size();
+        if (line.size() != columns)
+            line.fail(fmt::format("has {} heights; the first row has {}", line.size(), columns));
+        for (std::size_t i = 0; i < columns; ++i) heights.push_back(scale * line.element(i).number());
+    }
+    return built(node, [&] { return HeightField(columns, std::move(heights), spacing); });
+}
+
 CompoundPart readPart(const JsonNode& node) {
     node.expectKeys({"shape", "position", "orientation", "mass", "density"});
     const JsonNode shape = node.required("shape", "an object");
     CompoundPart part{readShape(shape), {}, {}, {}};
-    if (isInfinite(part.shape) || std::holds_alternative<Compound>(part.shape)) {
+    if (!isSolid(part.shape) || std::holds_alternative<Compound>(part.shape)) {
         shape.fail(fmt::format("is a {}; a part of a compound must be a sphere, box, capsule, cylinder or hull",
                                shapeName(part.shape)));
     }
@@ -91,6 +196,8 @@ Shape readShape(const JsonNode& node) {
     if (type == "box") return readBox(node);
     if (type == "plane") return readPlane(node);
     if (type == "hull") return readHull(node);
+    if (type == "mesh") return readMeshShape(node);
+    if (type == "height_field") return readHeightFieldShape(node);
     if (type != "compound") type_node.refuse(shape_types);
     return readCompound(node);
 }

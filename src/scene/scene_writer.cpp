@@ -57,6 +57,33 @@ std::string shapeText(const ConvexHull& s) {
     return out + "]";
 }
 
+/// All elements, each as a text of its own.
+template <class Range, class ToText>
+std::string arrayText(const Range& range, const ToText& toText) {
+    std::string out = "[";
+    for (const auto& element : range) {
+        if (out.size() > 1) out += ',';
+        out += toText(element);
+    }
+    return out + "]";
+}
+
+std::string shapeText(const Mesh& s) {
+    const auto triangle = [](const TriangleCorners& t) { return fmt::format("[{},{},{}]", t[0], t[1], t[2]); };
+    return fmt::format(R"("mesh","vertices":{},"indices":{}{})", arrayText(s.vertices(), vector),
+                       arrayText(s.triangles(), triangle), s.sides() == SurfaceSides::two ? R"(,"sides":"two")" : "");
+}
+
+std::string shapeText(const HeightField& s) {
+    std::string rows;
+    for (std::size_t row = 0; row < s.rows(); ++row) {
+        if (row > 0) rows += ',';
+        rows += arrayText(s.heights().subspan(row * s.columns(), s.columns()), number);
+    }
+    return fmt::format(R"("height_field","heights":[{}],"spacing":[{},{}])", rows, number(s.spacing().x()),
+                       number(s.spacing().y()));
+}
+
 std::string shapeText(const Compound& s);
 
 std::string objectText(const Shape& shape) {
@@ -91,16 +118,6 @@ std::string namesText(const std::vector<std::string>& names) {
     std::string out;
     for (const std::string& name : names) out += (out.empty() ? "" : ",") + text(name);
     return "[" + out + "]";
-}
-
-template <class Values, class Format>
-std::string arrayText(const Values& values, const Format& format) {
-    std::string out = "[";
-    for (const auto& value : values) {
-        if (out.size() > 1) out += ',';
-        out += format(value);
-    }
-    return out + "]";
 }
 
 std::string lawText(const ConstantMotion& motion) {

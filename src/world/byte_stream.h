@@ -2,6 +2,7 @@
 /// described in docs/snapshots.md.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -19,10 +20,11 @@ namespace cairn {
 // Arrays are copied as they lie in memory, since a rollback saves in every step.
 static_assert(std::endian::native == std::endian::little, "snapshots need a little-endian machine");
 
-/// What may be copied byte by byte: numbers, enumerations, and Eigen's fixed vectors, which hold nothing else.
+/// What may be copied byte by byte: numbers, enumerations, corners of triangles, and Eigen's fixed vectors, which hold
+/// nothing else.
 template <class T>
 concept PlainBytes = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Vec3> ||
-    std::is_same_v<T, Mat3> || std::is_same_v<T, Quat>;
+    std::is_same_v<T, Mat3> || std::is_same_v<T, Quat> || std::is_same_v<T, std::array<std::uint32_t, 3>>;
 
 /// What a frame of bytes holds.
 enum class FrameKind : std::uint32_t { world = 1, scene_run = 2 };

@@ -45,6 +45,17 @@ struct SaveShape {
             putOptional(part.density, out);
         }
     }
+    void operator()(const Mesh& mesh) const {
+        out.put(mesh.sides());
+        out.putArray(mesh.vertices());
+        out.putArray(mesh.triangles());
+    }
+    void operator()(const HeightField& field) const {
+        out.put(std::uint64_t{field.columns()});
+        out.put(field.spacing().x());
+        out.put(field.spacing().y());
+        out.putArray(field.heights());
+    }
 };
 
 /// Does what refuses a shape, with the offset in its message.
@@ -63,6 +74,28 @@ Shape loadHull(ByteReader& in) {
     std::optional<Shape> hull;
     sound(in, [&] { hull = ConvexHull(std::move(points)); });
     return *hull;
+}
+
+Shape loadMesh(ByteReader& in) {
+    const auto sides = in.getEnum(SurfaceSides::two);
+    std::vector<Vec3> vertices;
+    std::vector<TriangleCorners> triangles;
+    in.getArray(vertices);
+    in.getArray(triangles);
+    std::optional<Shape> mesh;
+    sound(in, [&] { mesh = Mesh(std::move(vertices), std::move(triangles), sides); });
+    return *mesh;
+}
+
+Shape loadHeightField(ByteReader& in) {
+    const auto columns = in.get<std::uint64_t>();
+    const auto column_spacing = in.get<double>();
+    const auto row_spacing = in.get<double>();
+    std::vector<double> heights;
+    in.getArray(heights);
+    std::optional<Shape> field;
+    sound(in, [&] { field = HeightField(columns, std::move(heights), {column_spacing, row_spacing}); });
+    return *field;
 }
 
 /// Parts hold no compounds, so that damaged bytes cannot nest without end.
@@ -87,6 +120,8 @@ Shape load(ByteReader& in, Nesting nesting) {
     const auto kind = in.get<std::uint8_t>();
     if (kind == 5) return loadHull(in);
     if (kind == 6 && nesting == Nesting::allowed) return loadCompound(in);
+    if (kind == 7 && nesting == Nesting::allowed) return loadMesh(in);
+    if (kind == 8 && nesting == Nesting::allowed) return loadHeightField(in);
     if (kind > 4) in.refuse("an unknown kind of shape");
     ShapeNumbers n{};
     for (double& number : n) number = in.get<double>();

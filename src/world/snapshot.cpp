@@ -141,7 +141,7 @@ void checkBody(const ByteReader& in, const BodyStorage& b, BodyIndex i, std::siz
         in.refuse(fmt::format("body {} with a surface that runs as none does", i));
     }
     if (b.kind[i] != BodyKind::dynamic) return;
-    if (isInfinite(b.shape[i])) in.refuse(fmt::format("body {} that is infinite and moves", i));
+    if (!isSolid(b.shape[i])) in.refuse(fmt::format("body {} that has no mass and moves", i));
     const bool heavy =
         b.mass[i] > 0 && std::isfinite(b.mass[i]) && b.inertia_B[i].allFinite() && (b.inertia_B[i].array() > 0).all();
     if (!heavy) in.refuse(fmt::format("body {} without a mass", i));
@@ -157,7 +157,7 @@ void saveBodies(const BodyStorage& b, ByteWriter& out) {
 /// Refuses inverse masses that are not those of the masses: the response would give energy without end.
 void checkMassProperties(const ByteReader& in, const BodyStorage& b, BodyIndex i) {
     const bool heavy = isUsableMass(b.mass[i]) && b.inertia_B[i].allFinite() && (b.inertia_B[i].array() > 0).all();
-    if (!isInfinite(b.shape[i]) && !heavy) in.refuse(fmt::format("body {} without a mass", i));
+    if (isSolid(b.shape[i]) && !heavy) in.refuse(fmt::format("body {} without a mass", i));
     if (!isInfinite(b.shape[i]) && !(b.r_max[i] <= distance_limit)) in.refuse(fmt::format("body {} without end", i));
     Vec3 inverse_B = Vec3::Zero();
     Mat3 inverse_W = Mat3::Zero();

@@ -71,8 +71,10 @@ void validateDescription(const BodyDescription& d, const MaterialTable& material
     requireWithin(d.pose.position, distance_limit, "position", "m");
     requireWithin(d.linear_velocity, speed_limit, "linear_velocity", "m/s");
     requireWithin(d.angular_velocity, speed_limit, "angular_velocity", "rad/s");
-    if (isInfinite(d.shape) && !d.fixed) {
-        throw InputError(fmt::format("a {} has no mass and must be fixed", shapeName(d.shape)));
+    if (!isSolid(d.shape) && !d.fixed) {
+        const bool surface = surfaceOf(d.shape) != nullptr;
+        throw InputError(fmt::format("a {} has no mass and must be fixed{}", shapeName(d.shape),
+                                     surface ? "; give it a motion, or build what moves of convex shapes" : ""));
     }
     requireGravityFactor(d.gravity_factor);
     requireDamping(d.linear_damping, "linear");
@@ -90,7 +92,7 @@ void validateDescription(const BodyDescription& d, const MaterialTable& material
 
 /// Mass, inertia and where the shape's frame is, from density or as given. @throws InputError
 void setMass(BodyStorage& bodies, BodyIndex i, const BodyDescription& d, double density) {
-    if (isInfinite(d.shape)) {
+    if (!isSolid(d.shape)) {
         if (d.centre_of_mass || d.inertia) {
             throw InputError(
                 fmt::format("a {} has no centre of mass and no inertia; leave them out", shapeName(d.shape)));
@@ -149,7 +151,7 @@ BodyId World::addBody(const BodyDescription& d) {
     b.shape[i] = normalised(d.shape);
     try {
         setMass(b, i, d, w.materials.all()[static_cast<std::size_t>(d.material)].density);
-        if (!isInfinite(d.shape)) requireUsableMass(b.mass[i]);
+        if (isSolid(d.shape)) requireUsableMass(b.mass[i]);
     } catch (...) {
         b.release(i);
         throw;

@@ -98,7 +98,7 @@ void World::setAngularVelocities(std::span<const BodyId> ids, std::span<const Ve
 void World::setFixed(BodyId id, bool fixed) {
     BodyStorage& b = state_->bodies;
     const BodyIndex i = b.indexOf(id);
-    if (!fixed && isInfinite(b.shape[i])) {
+    if (!fixed && !isSolid(b.shape[i])) {
         throw InputError(fmt::format("a {} has no mass and stays fixed", shapeName(b.shape[i])));
     }
     requireNoLaw(*state_, i);

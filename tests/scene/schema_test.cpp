@@ -61,6 +61,8 @@ TEST(SceneSchema, ListsTheKeysThatTheReaderAllows) {
         const std::string type = shape.at("properties").at("type").at("const").get<std::string>();
         const std::string body = R"({"material":"oak","shape":{"type":")" + type + R"(","?":1}})";
         EXPECT_EQ(keysOf(shape), allowedKeys(sceneWithBody(body)));
+        // A surface is given in one of two ways.
+        if (type == "mesh" || type == "height_field") continue;
         EXPECT_EQ(shape.at("required").size(), shape.at("properties").size());
     }
 }

@@ -7,6 +7,7 @@ export type ShapeInfo =
   | { type: 'cylinder'; radius: number; length: number }
   | { type: 'hull'; points: [number, number, number][] }
   | { type: 'compound'; parts: PartInfo[] }
+  | { type: 'mesh'; vertices: [number, number, number][]; indices: [number, number, number][] }
   | { type: 'plane'; normal: [number, number, number]; offset: number };
 
 /** A shape of a compound with its pose; the orientation is w, x, y, z. */

@@ -167,8 +167,9 @@ function describe(clip: Clip, panel: WorldPanel, time: number, slot: number): Se
   };
 }
 
-function describeShape(shape: { type: string; radius?: number; length?: number; size?: number[]; points?: unknown[]; parts?: unknown[] }): string {
+function describeShape(shape: { type: string; radius?: number; length?: number; size?: number[]; points?: unknown[]; parts?: unknown[]; indices?: unknown[] }): string {
   if (shape.points) return `hull of ${shape.points.length} corners`;
+  if (shape.indices) return `mesh of ${shape.indices.length} triangles`;
   if (shape.parts) return `compound of ${shape.parts.length} parts`;
   if (shape.size) return `box ${shape.size.map((edge) => quantity(edge, 'm')).join(' × ')}`;
   return `${shape.type}${shape.radius ? `, radius ${quantity(shape.radius, 'm')}` : ''}${shape.length ? `, length ${quantity(shape.length, 'm')}` : ''}`;

@@ -2,7 +2,7 @@
 import { BoxGeometry, BufferGeometry, CapsuleGeometry, CylinderGeometry, Group, SphereGeometry } from 'three';
 import { asleep, fixed, present, type BodyInfo, type ColourMode, type Frame, type Roster, type ShapeInfo } from '../model';
 import { InstancedBodies, MergedBodies, type BodyMesh } from './body_mesh';
-import { compoundGeometry, cornerGeometry, domeGeometry, hullGeometry } from './solids';
+import { compoundGeometry, cornerGeometry, domeGeometry, hullGeometry, meshGeometry } from './solids';
 import {
   asleepColour, awakeColour, categorical, fixedColour, noneColour, paint, qualitative, sequential, type Rgb,
 } from './palette';
@@ -140,7 +140,9 @@ export function niceAbove(value: number): number {
 }
 
 /** Bodies of one key are instances of one geometry. Boxes, balls and cylinders are scaled, the others drawn as they are. */
-function geometryKey({ shape }: BodyInfo): string {
+function geometryKey({ shape, slot, generation }: BodyInfo): string {
+  // A surface may have a million triangles: its text is not made to be compared.
+  if (shape.type === 'mesh') return `mesh ${slot} ${generation}`;
   return shape.type === 'capsule' || shape.type === 'hull' || shape.type === 'compound' ? JSON.stringify(shape) : shape.type;
 }
 
@@ -167,6 +169,7 @@ function makeGeometry({ shape }: BodyInfo, [around, along]: Fineness): BufferGeo
       case 'cylinder':
         return new CylinderGeometry(part.radius, part.radius, part.length, 2 * around).rotateX(Math.PI / 2);
       case 'hull': return hullGeometry(part.points);
+      case 'mesh': return meshGeometry(part.vertices, part.indices);
       case 'compound': return compoundGeometry(part.parts, actual);
       case 'plane': return new BufferGeometry();
     }

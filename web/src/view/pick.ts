@@ -1,7 +1,7 @@
 /** Which body lies under the pointer: exact ray tests against the shapes, nothing to do with triangles. */
 import { Quaternion, Ray, Vector3 } from 'three';
 import { present, type BodyInfo, type Frame, type Roster, type ShapeInfo } from '../model';
-import { compoundDistance, hullDistance } from './solids';
+import { compoundDistance, hullDistance, meshDistance } from './solids';
 
 export interface Hit { slot: number; distance: number; point: Vector3 }
 
@@ -41,6 +41,7 @@ function distanceTo(shape: ShapeInfo, o: Vector3, d: Vector3): number {
     case 'capsule': return capsule(o, d, shape.radius, shape.length / 2);
     case 'cylinder': return cylinder(o, d, shape.radius, shape.length / 2);
     case 'hull': return hullDistance(o, d, shape.points);
+    case 'mesh': return meshDistance(o, d, shape.vertices, shape.indices);
     case 'compound': return compoundDistance(o, d, shape.parts, distanceTo);
     case 'plane': {
       const n = new Vector3(...shape.normal);

@@ -1,4 +1,4 @@
-/** Shapes that have no dimensions of their own: hulls of points, and compounds of other shapes. */
+/** Shapes that have no dimensions of their own: hulls of points, surfaces of triangles, and compounds of other shapes. */
 import { Box3, BufferGeometry, Float32BufferAttribute, Matrix4, Quaternion, Ray, Vector3 } from 'three';
 import { ConvexGeometry } from 'three/addons/geometries/ConvexGeometry.js';
 import { ConvexHull } from 'three/addons/math/ConvexHull.js';
@@ -53,6 +53,16 @@ export function hullGeometry(points: number[][]): BufferGeometry {
   return new ConvexGeometry(vectors(points));
 }
 
+/** A surface of flat triangles, drawn from both sides: what is beneath a terrain is seen, too. */
+export function meshGeometry(vertices: number[][], indices: number[][]): BufferGeometry {
+  const sides = [(t: number[]): number[] => t, ([a, b, c]: number[]): number[] => [a, c, b]];
+  const points = sides.flatMap((turned) => indices.flatMap((t) => turned(t).flatMap((corner) => vertices[corner])));
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new Float32BufferAttribute(points, 3));
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
 /** @param make the geometry of a part in its own frame, in metres */
 export function compoundGeometry(parts: PartInfo[], make: (shape: ShapeInfo) => BufferGeometry): BufferGeometry {
   const one = new Vector3(1, 1, 1);
@@ -79,6 +89,7 @@ export function sizeOf(shape: ShapeInfo): number {
     case 'capsule':
     case 'cylinder': return 2 * shape.radius + shape.length;
     case 'hull': return 2 * Math.max(...distances(shape.points));
+    case 'mesh': return boxOf(shape)!.getSize(new Vector3()).length();
     case 'compound': return Math.max(...shape.parts.map((part) => 2 * Math.hypot(...part.position) + sizeOf(part.shape)));
     case 'plane': return Infinity;
   }
@@ -93,6 +104,7 @@ export function boxOf(shape: ShapeInfo): Box3 | null {
     case 'capsule': return about(shape.radius, shape.radius, shape.radius + shape.length / 2);
     case 'cylinder': return about(shape.radius, shape.radius, shape.length / 2);
     case 'hull': return new Box3().setFromPoints(vectors(shape.points));
+    case 'mesh': return new Box3().setFromPoints(vectors(shape.vertices));
     case 'compound': return shape.parts.reduce((box, part) => {
       const place = new Matrix4().compose(new Vector3(...part.position), turnOf(part), new Vector3(1, 1, 1));
       const inner = boxOf(part.shape);
@@ -116,6 +128,21 @@ export function hullDistance(o: Vector3, d: Vector3, points: number[][]): number
   if (!hull) hulls.set(points, (hull = new ConvexHull().setFromPoints(vectors(points))));
   const hit = hull.intersectRay(new Ray(o, d), new Vector3());
   return hit ? hit.distanceTo(o) : Infinity;
+}
+
+const corners = new WeakMap<number[][], Vector3[]>();
+
+/** Distance along a ray in the frame of the vertices, or infinity. */
+export function meshDistance(o: Vector3, d: Vector3, vertices: number[][], indices: number[][]): number {
+  const ray = new Ray(o, d);
+  const at = new Vector3();
+  let points = corners.get(vertices);
+  if (!points) corners.set(vertices, (points = vectors(vertices)));
+  let best = Infinity;
+  for (const [a, b, c] of indices) {
+    if (ray.intersectTriangle(points[a], points[b], points[c], false, at)) best = Math.min(best, at.distanceTo(o));
+  }
+  return best;
 }
 
 /** Distance along a ray in the frame of the compound, or infinity. */

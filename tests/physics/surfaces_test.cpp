@@ -1,0 +1,198 @@
+/// Bodies on triangles: on a plane of them they move as on the plane, and nothing falls through.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cairn/world.h"
+#include "surface_maker.h"
+
+namespace cairn {
+namespace {
+
+using testing::Random;
+
+struct OnSurface {
+    World world;
+    MaterialId oak;
+
+    OnSurface(const Shape& ground, double friction, const Settings& settings = Settings::preset(Preset::accuracy))
+        : world(settings), oak(world.addMaterial({"oak", 800})) {
+        world.setDefaultPairProperties({0.3, friction, friction});
+        world.setGravity(Vec3(0, 0, -10));
+        world.addBody({.shape = ground, .material = oak, .fixed = true});
+    }
+    void run(double seconds) {
+        const double end = world.time() + seconds;
+        while (world.time() < end - 1e-9) world.step();
+    }
+};
+
+/// How a body moves on the ground.
+struct Start {
+    Pose pose{};
+    Vec3 v = Vec3::Zero();
+    Vec3 w = Vec3::Zero();
+    double friction = 0.5;
+};
+
+/// Runs a body on a plane and on a plane of triangles. @return how far the states are apart at the end [m, m/s, rad/s]
+double difference(const Shape& shape, const Start& start, const Shape& mesh, double seconds) {
+    OnSurface plane(HalfSpace{}, start.friction);
+    OnSurface triangles(mesh, start.friction);
+    const auto add = [&](OnSurface& ground) {
+        return ground.world.addBody({.shape = shape,
+                                     .material = ground.oak,
+                                     .pose = start.pose,
+                                     .linear_velocity = start.v,
+                                     .angular_velocity = start.w});
+    };
+    const BodyId a = add(plane);
+    const BodyId b = add(triangles);
+    plane.run(seconds);
+    triangles.run(seconds);
+    EXPECT_GT(plane.world.pose(a).position.z(), 0);
+    return (plane.world.pose(a).position - triangles.world.pose(b).position).norm() +
+           (plane.world.pose(a).orientation.coeffs() - triangles.world.pose(b).orientation.coeffs()).norm() +
+           (plane.world.linearVelocity(a) - triangles.world.linearVelocity(b)).norm() +
+           (plane.world.angularVelocity(a) - triangles.world.angularVelocity(b)).norm();
+}
+
+const Mesh& fineGround() {
+    static const Mesh mesh = testing::flatMesh(200, 24, 11);
+    return mesh;
+}
+
+double heightOf(const Shape& shape) {
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
+    if (const auto* box = std::get_if<Box>(&shape)) return 0.5 * box->size.z();
+    if (const auto* capsule = std::get_if<Capsule>(&shape)) return 0.5 * capsule->length + capsule->radius;
+    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return 0.5 * cylinder->length;
+    return 0.25;
+}
+
+const Quat lying(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3(1, 0.3, 0).normalized()));
+
+TEST(SurfaceMotion, BodiesSlideAsOnThePlane) {
+    for (const auto& [name, shape] : testing::solids()) {
+        Start start{{Vec3(0.1, 0.2, heightOf(shape))}, Vec3(1.6, 0.7, 0), {}, 0.05};
+        EXPECT_LT(difference(shape, start, fineGround(), 5), 1e-9) << name;
+    }
+}
+
+TEST(SurfaceMotion, RoundBodiesRollAsOnThePlane) {
+    for (const Shape& shape : {Shape(Sphere{0.2}), Shape(Capsule{0.15, 0.3}), Shape(Cylinder{0.15, 0.4})}) {
+        const double radius = std::holds_alternative<Sphere>(shape) ? 0.2 : 0.15;
+        const Vec3 axis = lying * Vec3::UnitZ();
+        const Vec3 v = 1.7 * axis.cross(Vec3::UnitZ());
+        Start start{{Vec3(0.1, 0.2, radius), lying}, v, Vec3::UnitZ().cross(v) / radius, 0.5};
+        EXPECT_LT(difference(shape, start, fineGround(), 5), 1e-9) << shape.index();
+    }
+}
+
+TEST(SurfaceMotion, BodiesRestAsOnThePlane) {
+    for (const auto& [name, shape] : testing::solids()) {
+        Start start{
+            {Vec3(0.3, -0.2, heightOf(shape) + 0.01), Quat(Eigen::AngleAxisd(0.4, Vec3::UnitZ()))}, {}, {}, 0.5};
+        EXPECT_LT(difference(shape, start, fineGround(), 5), 1e-9) << name;
+    }
+}
+
+TEST(SurfaceMotion, BodiesTumbleAsOnThePlane) {
+    for (const auto& [name, shape] : testing::solids()) {
+        Start start{{Vec3(-2, -1, 1), Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()))},
+                    Vec3(2, 1, 0),
+                    Vec3(3, -4, 2),
+                    0.5};
+        EXPECT_LT(difference(shape, start, fineGround(), 2), 1e-9) << name;
+    }
+}
+
+TEST(SurfaceMotion, SlidingOverAThousandTrianglesLosesNoEnergy) {
+    // Without friction and gravity's work nothing may be lost at a seam.
+    const Mesh track = testing::irregularMesh(100, 20, 17, [](double, double) { return 0.0; });
+    Settings settings = Settings::preset(Preset::accuracy);
+    settings.sleep.sleeping = false;
+    settings.gravity_damping.damping = 0;
+    for (const auto& [name, shape] : testing::solids()) {
+        OnSurface ground(track, 0, settings);
+        const BodyId id = ground.world.addBody({.shape = shape,
+                                                .material = ground.oak,
+                                                .pose = {Vec3(-8, -8, heightOf(shape))},
+                                                .linear_velocity = Vec3(3, 3, 0)});
+        if (std::string_view(name) == "hull" || std::string_view(name) == "compound") continue;  // they tumble
+        ground.run(5);
+        const double kept = ground.world.linearVelocity(id).head<2>().squaredNorm() / 18;
+        EXPECT_NEAR(kept, 1, 1e-12) << name;
+        EXPECT_NEAR(ground.world.pose(id).position.x(), 7, 0.1) << name;
+    }
+}
+
+TEST(SurfaceMotion, NothingFallsThroughRoughGround) {
+    const Mesh rough = testing::irregularMesh(60, 12, 21, [](double x, double y) {
+        const double rim = std::max(std::abs(x), std::abs(y)) > 5 ? 40.0 : 0.0;
+        return 0.4 * std::sin(2 * x) * std::cos(3 * y) + rim;
+    });
+    Random random(31);
+    const auto shapes = testing::solids();
+    for (int round = 0; round < 4; ++round) {
+        Settings settings = Settings::preset(Preset::performance);
+        OnSurface ground(rough, 0.5, settings);
+        std::vector<BodyId> ids;
+        for (int i = 0; i < 60; ++i) {
+            const Vec3 at(random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(1.5, 6));
+            const Vec3 v(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-40, 0));
+            ids.push_back(ground.world.addBody({.shape = shapes[static_cast<std::size_t>(i) % shapes.size()].second,
+                                                .material = ground.oak,
+                                                .pose = {at, random.orientation()},
+                                                .linear_velocity = v,
+                                                .angular_velocity = random.vector(5)}));
+        }
+        ground.run(2);
+        for (const BodyId id : ids) {
+            const Vec3 p = ground.world.pose(id).position;
+            EXPECT_GT(p.z(), 0.4 * std::sin(2 * p.x()) * std::cos(3 * p.y()) - 0.1) << round << " " << id.index;
+        }
+    }
+}
+
+TEST(SurfaceMotion, AMeshIsFixedOrMovesByALaw) {
+    OnSurface ground(HalfSpace{}, 0.5);
+    try {
+        ground.world.addBody({.shape = testing::boxMesh({1, 1, 1}), .material = ground.oak});
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("must be fixed; give it a motion"), std::string::npos);
+    }
+    // A plate of triangles that rises carries a box along.
+    const BodyId lift = ground.world.addBody({.shape = testing::flatMesh(8, 2),
+                                              .material = ground.oak,
+                                              .pose = {Vec3(0, 0, 1)},
+                                              .fixed = true,
+                                              .motion = ConstantMotion{.velocity = Vec3(0.2, 0, 0.5)}});
+    const BodyId box =
+        ground.world.addBody({.shape = Box{{0.3, 0.3, 0.3}}, .material = ground.oak, .pose = {Vec3(0.1, 0.1, 1.15)}});
+    ground.run(1);
+    EXPECT_NEAR(ground.world.pose(lift).position.z(), 1.5, 1e-9);
+    EXPECT_NEAR(ground.world.pose(box).position.z(), 1.65, 5e-3);
+    EXPECT_NEAR(ground.world.pose(box).position.x(), 0.3, 0.02);
+}
+
+TEST(SurfaceMotion, SnapshotsKeepSurfaces) {
+    OnSurface ground(testing::irregularMesh(6, 4, 3, [](double x, double y) { return 0.1 * x * y; }), 0.5);
+    ground.world.addBody({.shape = HeightField(3, {0, 1, 0, 1, 0, 1}, {0.5, 0.4}),
+                          .material = ground.oak,
+                          .pose = {Vec3(9, 0, 0)},
+                          .fixed = true});
+    ground.world.addBody({.shape = Box{{0.3, 0.3, 0.3}}, .material = ground.oak, .pose = {Vec3(0.1, 0.1, 0.4)}});
+    ground.run(0.3);
+    World again = World::restore(ground.world.save());
+    EXPECT_EQ(again.stateHash(), ground.world.stateHash());
+    for (int i = 0; i < 120; ++i) {
+        ground.world.step();
+        again.step();
+    }
+    EXPECT_EQ(again.stateHash(), ground.world.stateHash());
+}
+
+}  // namespace
+}  // namespace cairn
