@@ -64,7 +64,7 @@ struct Joint {
     double length = 0;                         ///< of distances and ropes [m]
     double lead = 0;                           ///< of screws: displacement per angle [m/rad]
     double cone = infinite;                    ///< of balls [rad]
-    std::vector<FreeAxis> free;                ///< what may move, by JointAlong
+    std::vector<FreeAxis> free{};              ///< what may move, by JointAlong
     double break_force = infinite;             ///< [N]
     double break_torque = infinite;            ///< [N·m]
     std::uint8_t locked = 0;                   ///< of locks: which axes of the world, a bit for each JointAlong

@@ -42,8 +42,6 @@ class JsonNode {
     std::string_view source() const { return source_; }
     /// Such as `bodies[3].shape.radius`; empty for the root.
     std::string path() const;
-    /// What messages name the document by, such as its file.
-    std::string_view source() const { return source_; }
 
     /// @throws InputError always: "SOURCE: PATH is VALUE; it must be ALLOWED"
     [[noreturn]] void refuse(std::string_view allowed) const;
