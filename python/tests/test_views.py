@@ -63,7 +63,7 @@ def test_an_array_is_given_again_until_the_layout_changes() -> None:
     velocity.shape = (12,)
     assert world.bodies.linear_velocity.shape == (4, 3)
     kind = world.bodies.asleep
-    kind.dtype = np.dtype(np.int8)  # type: ignore[assignment]
+    setattr(kind, "dtype", np.dtype(np.int8))
     assert world.bodies.asleep.dtype == np.dtype(bool)
     before = world.bodies.mass
     world.remove_body(cairn.BodyId(3, 0))
