@@ -19,12 +19,12 @@ SHORT = "CAIRN_SHORT" in os.environ
 Floats = npt.NDArray[np.float64]
 G, GRAIN = 9.81, 0.1
 BASE = 5 * GRAIN
-COUNT, DURATION = (96, 1.5) if SHORT else (500, 6.0)
+COUNT, DURATION = (96, 1.5) if SHORT else (400, 5.5)
 
 
-def scene(friction: float, rolling: float) -> cairn.Scene:
+def scene(friction: float, rolling: float, seed: int) -> cairn.Scene:
     """Grains above a base of grains that are fixed. friction: [1], rolling: length of the rolling friction [radii]"""
-    random = np.random.default_rng(3)
+    random = np.random.default_rng(seed)
     rows = np.arange(-7, 8)
     base = np.array([[(i + j % 2 / 2) * GRAIN, j * math.sqrt(3) / 2 * GRAIN, 0] for i in rows for j in rows])
     base = base[np.hypot(base[:, 0], base[:, 1]) <= BASE]
@@ -68,17 +68,25 @@ def surface(world: cairn.World) -> Floats:
     return mean
 
 
+# %%
+# Each heap is another one: the points are means of three, the bars their standard deviation.
 FLANK = (RADII > 0.25 * BASE) & (RADII < 0.9 * BASE)
 fig, (left, right) = plt.subplots(1, 2, figsize=(9, 4))
 frictions = [0.1, 0.8] if SHORT else [0.1, 0.2, 0.4, 0.8]
+seeds = range(1 if SHORT else 3)
 angles: dict[float, list[float]] = {}
 for rolling, style in ((0.0, "o--"), (0.2, "s-")):
     angles[rolling] = []
     for friction in frictions:
-        result = cairn.run(scene(friction, rolling), record="repose.h5", after_frame=take_away)
-        height = surface(result.world)
-        slope, _ = np.polyfit(RADII[FLANK], height[FLANK], 1)
-        angles[rolling].append(math.degrees(math.atan(-slope)))
+        heights, slopes = [], []
+        for seed in seeds:
+            result = cairn.run(scene(friction, rolling, seed), record="repose.h5", after_frame=take_away)
+            heights.append(surface(result.world))
+            slopes.append(np.polyfit(RADII[FLANK], heights[-1][FLANK], 1)[0])
+        height = np.mean(heights, axis=0)
+        each = np.degrees(np.arctan(-np.array(slopes)))
+        angles[rolling].append(float(each.mean()))
+        right.errorbar(friction, each.mean(), each.std(), color="0.2", capsize=3)
         if friction in (frictions[0], frictions[-1]):
             left.plot(RADII / GRAIN, height / GRAIN, style, markersize=4,
                       color="0.6" if friction == frictions[0] else "0.1",
@@ -97,6 +105,6 @@ print({rolling: [round(angle, 1) for angle in row] for rolling, row in angles.it
 assert angles[0.2][-1] > angles[0.0][-1] + 3 and angles[0.2][-1] > angles[0.2][0] + 3
 
 # %%
-# The steepest of the heaps.
+# The last of the heaps.
 assert result.recording is not None
 result.recording

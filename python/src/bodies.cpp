@@ -16,11 +16,17 @@ py::array arrayOf(const BodyView<Element>& view) {
     return shown(reinterpret_cast<const Number*>(view.data()), view.size(), columns > 1 ? columns : 0, owner);
 }
 
-/// A property that is an array of a field.
-template <class Number, auto field>
+/// A property that is an array of a field. @param number of the field, below 8
+template <class Number, auto field, std::size_t number>
 void bindView(py::class_<PyBodies>& bodies, const char* name, const char* doc) {
     bodies.def_property_readonly(
-        name, [](const PyBodies& self) { return arrayOf<Number>(self.use().bodyViews().*field); }, doc);
+        name,
+        [](const PyBodies& self) {
+            const World& world = self.use();
+            return self.owner->arrays().get(number, world.layoutVersion(),
+                                            [&] { return arrayOf<Number>(world.bodyViews().*field); });
+        },
+        doc);
 }
 
 py::array idsOfSlots(const PyBodies& self) {
@@ -133,18 +139,18 @@ void bindBodies(py::module_& module) {
     py::class_<PyBodies> bodies(module, "Bodies",
                                 "The state of all bodies. Row i of an array is that of the body with index i; rows of "
                                 "removed bodies, whose kind is hole, mean nothing.");
-    bindView<std::uint8_t, &BodyViews::kind>(bodies, "kind", "Numbers of BodyKind, shape (slots,).");
-    bindView<std::uint32_t, &BodyViews::generation>(bodies, "generation", "Of the slot, shape (slots,).");
-    bindView<double, &BodyViews::centre_of_mass>(bodies, "centre_of_mass", "[m, W], shape (slots, 3).");
-    bindView<double, &BodyViews::principal_axes>(
+    bindView<std::uint8_t, &BodyViews::kind, 0>(bodies, "kind", "Numbers of BodyKind, shape (slots,).");
+    bindView<std::uint32_t, &BodyViews::generation, 1>(bodies, "generation", "Of the slot, shape (slots,).");
+    bindView<double, &BodyViews::centre_of_mass, 2>(bodies, "centre_of_mass", "[m, W], shape (slots, 3).");
+    bindView<double, &BodyViews::principal_axes, 3>(
         bodies, "principal_axes_xyzw",
         "Of the principal inertia, B to W: quaternions in the order of memory (x, y, z, w), shape (slots, 4).");
-    bindView<double, &BodyViews::linear_velocity>(bodies, "linear_velocity",
-                                                  "Of the centre of mass [m/s, W], shape (slots, 3).");
-    bindView<double, &BodyViews::angular_velocity>(bodies, "angular_velocity", "[rad/s, W], shape (slots, 3).");
-    bindView<double, &BodyViews::mass>(bodies, "mass",
-                                       "[kg], shape (slots,); of fixed bodies what it were if they moved.");
-    bindView<bool, &BodyViews::asleep>(bodies, "asleep", "Whether it sleeps, shape (slots,).");
+    bindView<double, &BodyViews::linear_velocity, 4>(bodies, "linear_velocity",
+                                                     "Of the centre of mass [m/s, W], shape (slots, 3).");
+    bindView<double, &BodyViews::angular_velocity, 5>(bodies, "angular_velocity", "[rad/s, W], shape (slots, 3).");
+    bindView<double, &BodyViews::mass, 6>(bodies, "mass",
+                                          "[kg], shape (slots,); of fixed bodies what it were if they moved.");
+    bindView<bool, &BodyViews::asleep, 7>(bodies, "asleep", "Whether it sleeps, shape (slots,).");
     bodies
         .def_property_readonly(
             "slots", [](const PyBodies& self) { return self.use().bodyViews().slots(); }, "Rows of every array.")

@@ -1,7 +1,9 @@
 /// @file Worlds and runs as Python holds them: one thread at a time may use one, and a second one is told so.
 #pragma once
 
+#include <array>
 #include <concepts>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -10,6 +12,45 @@
 #include "casters.h"
 
 namespace cairn::python {
+
+/// The arrays of bodies' fields that were last taken. Each is given again while the layout of the world is the same: a
+/// new one costs more, most of all where a step has driven everything else out of the caches.
+class TakenArrays {
+  public:
+    /// @param field number of the field @param layout of the world @param make gives the array anew
+    template <class Make>
+    py::array get(std::size_t field, std::uint64_t layout, Make make) {
+        if (layout != layout_) {
+            taken_ = {};
+            layout_ = layout;
+        }
+        Taken& taken = taken_.at(field);
+        if (!taken.isAsMade()) taken = Taken(make());
+        return py::reinterpret_borrow<py::array>(taken.array);
+    }
+
+  private:
+    /// An array, and what its holder can set although its numbers cannot be written.
+    struct Taken {
+        py::object array;
+        py::ssize_t dimensions = 0;
+        py::ssize_t rows = 0;
+        PyObject* dtype = nullptr;
+
+        Taken() = default;
+        explicit Taken(const py::array& made)
+            : array(made), dimensions(made.ndim()), rows(made.shape(0)), dtype(made.dtype().ptr()) {}
+        bool isAsMade() const {
+            if (!array) return false;
+            const auto a = py::reinterpret_borrow<py::array>(array);
+            return a.ndim() == dimensions && a.shape(0) == rows && (a.flags() & py::array::c_style) != 0 &&
+                   a.dtype().ptr() == dtype;
+        }
+    };
+
+    std::array<Taken, 8> taken_;
+    std::uint64_t layout_ = 0;
+};
 
 /// A world, or a run with the world in it. Whoever holds the interpreter's lock may read and write `in_use`.
 class Owner {
@@ -41,6 +82,9 @@ class Owner {
         return work();
     }
 
+    /// Whoever holds the interpreter's lock may use them.
+    TakenArrays& arrays() { return arrays_; }
+
   private:
     /// Ends when the lock is held again, also after an exception.
     struct InUse {
@@ -52,12 +96,14 @@ class Owner {
     };
 
     std::variant<World, SceneRun> what_;
+    TakenArrays arrays_;
     bool in_use_ = false;
 };
 
 /// What a Python object of one of these classes is.
 struct PyWorld {
     std::shared_ptr<Owner> owner;
+    py::object bodies{};  ///< a PyBodies, once it was asked for
 
     World& use() const { return owner->world(); }
 };

@@ -199,7 +199,12 @@ void bindWorld(py::module_& module) {
         .def("remove_body", on(&World::removeBody), py::arg("id"),
              "Wakes the sleeping bodies that touched it; its springs and joints go with it. Raises StaleIdError.")
         .def_property_readonly(
-            "bodies", [](const PyWorld& self) { return PyBodies{self.owner}; }, "The state of all bodies in arrays.")
+            "bodies",
+            [](PyWorld& self) {
+                if (!self.bodies) self.bodies = py::cast(PyBodies{self.owner});
+                return self.bodies;
+            },
+            "The state of all bodies in arrays.")
         .def_property_readonly("body_count", on(&World::bodyCount), "Bodies in the world.")
         .def_property_readonly("layout_version", on(&World::layoutVersion),
                                "Another number as soon as arrays of the bodies are to be taken anew.");

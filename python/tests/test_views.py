@@ -54,6 +54,22 @@ def test_arrays_follow_the_step_without_a_copy_and_cannot_be_written() -> None:
         world.bodies.linear_velocity = velocity  # type: ignore[misc]
 
 
+def test_an_array_is_given_again_until_the_layout_changes() -> None:
+    world = tower(3)
+    velocity = world.bodies.linear_velocity
+    world.step()
+    assert world.bodies is world.bodies and world.bodies.linear_velocity is velocity
+    # Its holder cannot write its numbers, but may look at them in another way: the others do not.
+    velocity.shape = (12,)
+    assert world.bodies.linear_velocity.shape == (4, 3)
+    kind = world.bodies.asleep
+    setattr(kind, "dtype", np.dtype(np.int8))
+    assert world.bodies.asleep.dtype == np.dtype(bool)
+    before = world.bodies.mass
+    world.remove_body(cairn.BodyId(3, 0))
+    assert world.bodies.mass is not before
+
+
 def test_an_array_outlives_its_world() -> None:
     world = tower(3)
     position = world.bodies.centre_of_mass
