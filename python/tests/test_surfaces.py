@@ -34,7 +34,7 @@ def test_bad_input_is_refused() -> None:
     with pytest.raises(cairn.InputError, match="the vertex"):
         cairn.Mesh(SQUARE, [[0, 1, -1]])
     with pytest.raises(cairn.InputError, match="finite"):
-        cairn.Mesh([[0, 0, np.nan], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        cairn.Mesh(np.array([[0, 0, np.nan], [1, 0, 0], [0, 1, 0]]), [[0, 1, 2]])
     with pytest.raises(TypeError):
         cairn.Mesh(SQUARE, [0, 1, 2])
     with pytest.raises(cairn.InputError, match="two rows"):
