@@ -143,10 +143,10 @@ Pass batchPass(std::string_view resolution) {
     };
     pass.run = [pile, solver] {
         const BatchView batch = pile->batch();
-        const BodyState bodies = pile->state();
+        const BodyState state = pile->state();
         const Executor alone;
         const ResolutionCounts counts =
-            solver->resolve({{&batch, 1}, pile->contacts, bodies, pile->settings.resolution, alone});
+            solver->resolve({{&batch, 1}, pile->contacts, state, pile->settings.resolution, alone});
         keep(counts);
     };
     return pass;
