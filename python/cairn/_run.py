@@ -70,7 +70,7 @@ def run(
     - scene: a Scene, the name of a built-in one ("stacks5", "tower:20") or a scene file.
     - duration: in place of the scene's [s], > 0.
     - record: file for a recording with 30 frames per simulated second.
-    - preset, steps_per_second [1/s], settings: override the scene's, as "threads" or "sweep_limit".
+    - preset, steps_per_second [1/s], settings: override the scene's, as "threads" or "iterations".
     - hashes: whether every time step's state hash is recorded, so that verify_recording() compares each.
     - after_frame: called with the run after each simulation step of 1/30 s.
 

@@ -156,7 +156,8 @@ TEST(Motion, BaseExcitationAgreesWithInertialForces) {
     Settings settings = measured();
     settings.resolution.resolution_threshold = 1e-13;
     settings.resolution.sweep_tolerance = 1e-14;
-    settings.resolution.sweep_limit = settings.resolution.moving_sweep_limit = 1000;
+    settings.resolution.iterations = 1000;
+    settings.resolution.tolerance = 0;
     MovedTable shaken(settings);
     MovedTable inertial(settings);
     std::vector<BodyId> ids;
