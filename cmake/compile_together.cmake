@@ -1,9 +1,18 @@
+# A local name may stand for something else in a source that is compiled with it; builds of fewer at once look at that.
+add_library(cairn_local_names INTERFACE)
+target_compile_options(cairn_local_names INTERFACE -Wno-shadow)
+
 # Most of a compilation is reading and instantiating Eigen, which sources that are compiled together share. Names in
 # unnamed namespaces must then differ within a target. `make tidy` compiles every source alone.
 #   cairn_compile_together(TARGET SOURCES_AT_ONCE)
+# So many sources at once are a compromise: more are less work for all, but more for who changes one of them.
 function(cairn_compile_together target sources_at_once)
   if(NOT CAIRN_UNITY)
     return()
+  endif()
+  if(CAIRN_WHOLE_FOLDERS)
+    set(sources_at_once 0)
+    target_link_libraries(${target} PRIVATE cairn_local_names)
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${sources_at_once})
   # g++ takes a source that is included for a header, in which members of unnamed namespaces would be a mistake.

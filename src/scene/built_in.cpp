@@ -28,7 +28,7 @@ struct Entry {
 
 using Numbers = std::array<int, 2>;
 
-constexpr auto entries = std::to_array<Entry>({
+constexpr auto known_scenes = std::to_array<Entry>({
     {{"stacks5", "five walls of 55 boxes, hit by an iron ball (thesis §5.1)", "stacks5"},
      0,
      {},
@@ -100,7 +100,7 @@ std::vector<std::string_view> splitName(std::string_view name) {
 }
 
 const Entry* findEntry(std::string_view family) {
-    for (const Entry& entry : entries) {
+    for (const Entry& entry : known_scenes) {
         if (entry.family() == family) return &entry;
     }
     return nullptr;
@@ -120,8 +120,8 @@ int readNumber(std::string_view name, std::string_view text, const Parameter& pa
 
 std::vector<BuiltInScene> builtInScenes() {
     std::vector<BuiltInScene> scenes;
-    scenes.reserve(std::size(entries));
-    for (const Entry& entry : entries) scenes.push_back(entry.scene);
+    scenes.reserve(std::size(known_scenes));
+    for (const Entry& entry : known_scenes) scenes.push_back(entry.scene);
     return scenes;
 }
 
@@ -134,8 +134,8 @@ Scene builtInScene(std::string_view name) {
     const Entry* const entry = findEntry(parts.front());
     if (entry == nullptr) {
         std::vector<std::string_view> names;
-        names.reserve(std::size(entries));
-        for (const Entry& known : entries) names.push_back(known.scene.name);
+        names.reserve(std::size(known_scenes));
+        for (const Entry& known : known_scenes) names.push_back(known.scene.name);
         throw InputError(fmt::format("'{}' is not a built-in scene; built in are {}", name, fmt::join(names, ", ")));
     }
     if (parts.size() - 1 > entry->parameter_count) {

@@ -241,6 +241,11 @@ std::string JsonNode::text() const {
     return value_->get<std::string>();
 }
 
+std::filesystem::path JsonNode::file() const {
+    // An absolute path replaces what it is appended to.
+    return std::filesystem::path(source_).parent_path() / text();
+}
+
 JsonNode JsonNode::required(std::string_view key, std::string_view allowed) const {
     if (const std::optional<JsonNode> found = find(key)) return *found;
     const Json nothing;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -58,6 +59,8 @@ class JsonNode {
     Vec3 vector() const;
     bool flag() const;
     std::string text() const;  ///< not empty
+    /// The file that it names, whose path counts from the document's file.
+    std::filesystem::path file() const;
 
     /// A key that must be there. @param allowed what it must be, for the message
     JsonNode required(std::string_view key, std::string_view allowed) const;

@@ -50,9 +50,7 @@ void addLine(const JsonNode& node, std::string_view line, std::size_t number, Nu
 }  // namespace
 
 NumberTable readNumberTable(const JsonNode& node) {
-    const std::filesystem::path given = node.text();
-    const std::filesystem::path file =
-        given.is_absolute() ? given : std::filesystem::path(node.source()).parent_path() / given;
+    const std::filesystem::path file = node.file();
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) {
         throw IoError(

@@ -1,7 +1,5 @@
 #include <fmt/core.h>
 
-#include <filesystem>
-
 #include "cairn/mesh_file.h"
 #include "geometry/geometry.h"
 #include "scene/scene_reading.h"
@@ -47,12 +45,6 @@ Shape readHull(const JsonNode& node) {
     } catch (const InputError& error) {
         list.fail(fmt::format("are refused: {}", error.what()));
     }
-}
-
-/// The file that a shape names, from the folder of its scene on.
-std::filesystem::path fileOf(const JsonNode& node) {
-    const std::filesystem::path file(node.text());
-    return file.is_absolute() ? file : std::filesystem::path(node.source()).parent_path() / file;
 }
 
 /// Does what may refuse a shape, with the node in its message.
@@ -110,7 +102,7 @@ Shape readMeshShape(const JsonNode& node) {
     requireOneOf(node, "file", "vertices");
     if (const auto file = node.find("file")) {
         if (node.find("indices")) node.fail("has a file and indices; the file has its own, remove them");
-        return built(*file, [&] { return readMesh(fileOf(*file), sides, scale); });
+        return built(*file, [&] { return readMesh(file->file(), sides, scale); });
     }
     const JsonNode list = node.required("vertices", "an array of points [m]");
     list.expectArray("an array of points [m]");
@@ -134,7 +126,7 @@ Shape readHeightFieldShape(const JsonNode& node) {
     const double scale = scale_node ? scale_node->number() : 1;
     requireOneOf(node, "file", "heights");
     if (const auto file = node.find("file")) {
-        return built(*file, [&] { return readHeightField(fileOf(*file), spacing, scale); });
+        return built(*file, [&] { return readHeightField(file->file(), spacing, scale); });
     }
     const JsonNode rows = node.required("heights", "an array of rows of heights [m]");
     rows.expectArray("an array of rows of heights [m]");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
 
 #include "joints/joint_groups.h"
@@ -80,6 +81,18 @@ double rateOf(const JointRow& row, const Twist& a, const Twist& b) {
     return row.linear.dot(a.v - b.v) + row.angular_a.dot(a.w) + row.angular_b.dot(b.w);
 }
 
+/// A joint before, at and after a moment, in which its bodies move: what a derivative is taken from.
+constexpr double around_time = 1e-5;
+std::array<JointBlock, 3> around(const Joint& joint, const Pose& a, const Twist& u, const Pose& b, const Twist& w) {
+    std::array<JointBlock, 3> blocks;
+    double time = -around_time;
+    for (JointBlock& block : blocks) {
+        evaluate(joint, moved(a, u, time), moved(b, w, time), 0.01, block);
+        time += around_time;
+    }
+    return blocks;
+}
+
 class RowsOf : public ::testing::TestWithParam<JointKind> {};
 INSTANTIATE_TEST_SUITE_P(Joints, RowsOf, ::testing::ValuesIn(all_kinds));
 
@@ -91,19 +104,13 @@ TEST_P(RowsOf, AreTheDerivativesOfTheErrorsAndOfThePositions) {
         const Joint joint = jointAt(GetParam(), 0, a, 1, b, random);
         const Twist u{random.vector(), random.vector()};
         const Twist w{random.vector(), random.vector()};
-        constexpr double time = 1e-5;
-        JointBlock here;
-        JointBlock before;
-        JointBlock after;
-        evaluate(joint, a, b, 0.01, here);
-        evaluate(joint, moved(a, u, -time), moved(b, w, -time), 0.01, before);
-        evaluate(joint, moved(a, u, time), moved(b, w, time), 0.01, after);
+        const auto [before, here, after] = around(joint, a, u, b, w);
         for (std::uint32_t k = 0; k < here.size; ++k) {
             EXPECT_NEAR(here.error[k], 0, 1e-14);
-            EXPECT_NEAR((after.error[k] - before.error[k]) / (2 * time), rateOf(here.rows[k], u, w), 1e-8) << k;
+            EXPECT_NEAR((after.error[k] - before.error[k]) / (2 * around_time), rateOf(here.rows[k], u, w), 1e-8) << k;
         }
         for (std::uint32_t k = 0; k < here.bounds; ++k) {
-            const double rate = (before.bound[k].to_upper - after.bound[k].to_upper) / (2 * time);
+            const double rate = (before.bound[k].to_upper - after.bound[k].to_upper) / (2 * around_time);
             EXPECT_NEAR(rate, rateOf(here.bound[k].row, u, w), 1e-8);
         }
     }
@@ -128,16 +135,10 @@ TEST_P(RowsOf, FollowTheFreeAxesFarFromWhereTheyBegan) {
         }
         const Twist u{random.vector(), random.vector()};
         const Twist w{random.vector(), random.vector()};
-        constexpr double time = 1e-5;
-        JointBlock here;
-        JointBlock before;
-        JointBlock after;
-        evaluate(joint, a, b, 0.01, here);
-        evaluate(joint, moved(a, u, -time), moved(b, w, -time), 0.01, before);
-        evaluate(joint, moved(a, u, time), moved(b, w, time), 0.01, after);
+        const auto [before, here, after] = around(joint, a, u, b, w);
         ASSERT_GE(here.bounds, joint.free.empty() ? 0U : 1U);
         for (std::uint32_t k = 0; k < here.bounds; ++k) {
-            const double rate = (before.bound[k].to_upper - after.bound[k].to_upper) / (2 * time);
+            const double rate = (before.bound[k].to_upper - after.bound[k].to_upper) / (2 * around_time);
             EXPECT_NEAR(rate, rateOf(here.bound[k].row, u, w), 1e-7) << k;
         }
     }

@@ -19,12 +19,23 @@ JointDescription sliding(BodyId body) {
     return {.kind = JointKind::slider, .a = body, .axis = Vec3::UnitX()};
 }
 
+/// A body of 2 kg on such a slider, which the test describes further, with a speed.
+struct Sliding : JointBench {
+    BodyId body = add(block, 2, Vec3::Zero());
+    JointId joint;
+
+    explicit Sliding(JointDescription d, double speed = 0) {
+        const JointDescription slider = sliding(body);
+        d.kind = slider.kind;
+        d.a = slider.a;
+        d.axis = slider.axis;
+        joint = world.addJoint(d);
+        world.setLinearVelocity(body, Vec3(speed, 0, 0));
+    }
+};
+
 TEST(JointAxes, ASpringOscillatesAsItsImplicitStepSays) {
-    JointBench bench;
-    const BodyId body = bench.add(block, 2, Vec3::Zero());
-    JointDescription d = sliding(body);
-    d.spring = JointSpring{.stiffness = 50, .rest = 0.3};
-    const JointId joint = bench.world.addJoint(d);
+    Sliding bench({.spring = JointSpring{.stiffness = 50, .rest = 0.3}});
     const double h = bench.step();
     double x = 0;
     double v = 0;
@@ -32,7 +43,7 @@ TEST(JointAxes, ASpringOscillatesAsItsImplicitStepSays) {
         bench.world.step();
         x += h * v;
         v = (v - h * 25 * (x - 0.3)) / (1 + h * h * 25);
-        ASSERT_NEAR(bench.world.joint(joint).position, x, 1e-12) << i;
+        ASSERT_NEAR(bench.world.joint(bench.joint).position, x, 1e-12) << i;
     }
     // Period 2π·√(m/k), and the implicit step takes ω²h/2 of the amplitude per time.
     const double decay = std::exp(-25 * h / 2 * bench.world.time());
@@ -40,38 +51,28 @@ TEST(JointAxes, ASpringOscillatesAsItsImplicitStepSays) {
 }
 
 TEST(JointAxes, ADamperSlowsExponentially) {
-    JointBench bench;
-    const BodyId body = bench.add(block, 2, Vec3::Zero());
-    JointDescription d = sliding(body);
-    d.damping = 3;
-    const JointId joint = bench.world.addJoint(d);
-    bench.world.setLinearVelocity(body, Vec3(1, 0, 0));
+    Sliding bench({.damping = 3}, 1);
     bench.run(1);
-    EXPECT_NEAR(bench.world.joint(joint).speed, std::pow(1 + 1.5 * bench.step(), -960), 1e-12);
-    EXPECT_NEAR(bench.world.joint(joint).speed, std::exp(-1.5), 1e-3);
+    EXPECT_NEAR(bench.world.joint(bench.joint).speed, std::pow(1 + 1.5 * bench.step(), -960), 1e-12);
+    EXPECT_NEAR(bench.world.joint(bench.joint).speed, std::exp(-1.5), 1e-3);
 }
 
 TEST(JointAxes, DryFrictionStopsAndHolds) {
-    JointBench bench;
-    const BodyId body = bench.add(block, 2, Vec3::Zero());
-    JointDescription d = sliding(body);
-    d.friction = 4;
-    const JointId joint = bench.world.addJoint(d);
-    bench.world.setLinearVelocity(body, Vec3(1, 0, 0));
+    Sliding bench({.friction = 4}, 1);
     bench.run(0.25);
-    EXPECT_NEAR(bench.world.joint(joint).speed, 0.5, 1e-12) << "v − F·t/m";
-    EXPECT_NEAR(bench.world.joint(joint).force.x(), -4, 1e-9);
+    EXPECT_NEAR(bench.world.joint(bench.joint).speed, 0.5, 1e-12) << "v − F·t/m";
+    EXPECT_NEAR(bench.world.joint(bench.joint).force.x(), -4, 1e-9);
     bench.run(0.5);
-    const double stopped = bench.world.joint(joint).position;
-    EXPECT_EQ(bench.world.joint(joint).speed, 0);
+    const double stopped = bench.world.joint(bench.joint).position;
+    EXPECT_EQ(bench.world.joint(bench.joint).speed, 0);
     EXPECT_NEAR(stopped, 0.25, 1e-3) << "m·v²/2F";
-    bench.world.setConstantForce(body, Vec3(3.9, 0, 0));
+    bench.world.setConstantForce(bench.body, Vec3(3.9, 0, 0));
     bench.run(0.5);
-    EXPECT_NEAR(bench.world.joint(joint).position, stopped, 1e-14) << "less than friction moves nothing";
-    bench.world.setConstantForce(body, Vec3(5, 0, 0));
-    const double now = bench.world.joint(joint).speed;
+    EXPECT_NEAR(bench.world.joint(bench.joint).position, stopped, 1e-14) << "less than friction moves nothing";
+    bench.world.setConstantForce(bench.body, Vec3(5, 0, 0));
+    const double now = bench.world.joint(bench.joint).speed;
     bench.run(0.5);
-    EXPECT_NEAR(bench.world.joint(joint).speed, now + 0.5 * 1 / 2, 1e-9) << "(5 − 4)·t/m";
+    EXPECT_NEAR(bench.world.joint(bench.joint).speed, now + 0.5 * 1 / 2, 1e-9) << "(5 − 4)·t/m";
 }
 
 /// Error of a critically damped servo's step response x(t) = 1 − (1 + ωt)·exp(−ωt), ω² = k/m, c = 2·m·ω.
@@ -117,16 +118,12 @@ TEST(JointAxes, AServoIsStableForAnyGain) {
 }
 
 TEST(JointAxes, AServoGivesNoMoreThanItsLimit) {
-    JointBench bench;
-    const BodyId body = bench.add(block, 2, Vec3::Zero());
-    JointDescription d = sliding(body);
-    d.servo = JointServo{.speed = 5, .damping = 1e9, .limit = 4};
-    const JointId joint = bench.world.addJoint(d);
+    Sliding bench({.servo = JointServo{.speed = 5, .damping = 1e9, .limit = 4}});
     bench.run(1);
-    EXPECT_NEAR(bench.world.joint(joint).speed, 2, 1e-9) << "F·t/m";
-    EXPECT_NEAR(bench.world.joint(joint).force.x(), 4, 1e-9);
+    EXPECT_NEAR(bench.world.joint(bench.joint).speed, 2, 1e-9) << "F·t/m";
+    EXPECT_NEAR(bench.world.joint(bench.joint).force.x(), 4, 1e-9);
     bench.run(2);
-    EXPECT_NEAR(bench.world.joint(joint).speed, 5, 1e-6);
+    EXPECT_NEAR(bench.world.joint(bench.joint).speed, 5, 1e-6);
 }
 
 TEST(JointAxes, SixStiffServosHoldAnArm) {
@@ -180,18 +177,11 @@ TEST(JointAxes, APendulumWithARotorSwingsSlower) {
 }
 
 TEST(JointAxes, ALimitThrowsBackWithItsRestitution) {
-    JointBench bench;
-    const BodyId body = bench.add(block, 2, Vec3::Zero());
-    JointDescription d = sliding(body);
-    d.lower = -0.5;
-    d.upper = 0.5;
-    d.restitution = 0.6;
-    const JointId joint = bench.world.addJoint(d);
-    bench.world.setLinearVelocity(body, Vec3(3, 0, 0));
+    Sliding bench({.lower = -0.5, .upper = 0.5, .restitution = 0.6}, 3);
     bench.run(0.25);
-    EXPECT_NEAR(bench.world.joint(joint).speed, -1.8, 1e-12);
+    EXPECT_NEAR(bench.world.joint(bench.joint).speed, -1.8, 1e-12);
     bench.run(0.6);
-    EXPECT_NEAR(bench.world.joint(joint).speed, 1.08, 1e-12);
+    EXPECT_NEAR(bench.world.joint(bench.joint).speed, 1.08, 1e-12);
     EXPECT_LE(bench.largestError(), 1e-9);
 }
 

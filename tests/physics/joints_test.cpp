@@ -4,45 +4,29 @@
 #include <cmath>
 #include <numbers>
 
-#include "cairn/world.h"
+#include "joint_testing.h"
 
 namespace cairn {
 namespace {
 
-constexpr double earth_gravity = 9.81;
+constexpr double earth_gravity = mechanics::joint_gravity;
 
 Settings precise(ResolutionKind resolution = ResolutionKind::impulse_queue) {
-    Settings settings = Settings::preset(Preset::accuracy);
+    Settings settings = mechanics::undamped();
     settings.resolution.resolution = resolution;
-    settings.gravity_damping.damping = 0;
-    settings.sleep.sleeping = false;
-    settings.integration.exact_flight = true;
     return settings;
 }
 
-struct Workshop {
-    World world;
-    MaterialId steel = world.addMaterial({"steel", 7800});
-
+struct Workshop : mechanics::JointBench {
     explicit Workshop(const Vec3& gravity = Vec3(0, 0, -earth_gravity), const Settings& settings = precise())
-        : world(settings) {
-        world.setDefaultPairProperties({1, 0, 0});
-        world.setGravity(gravity);
-    }
+        : JointBench(gravity, settings) {}
     BodyId add(const Shape& shape, double mass, const Vec3& place, const Vec3& v = Vec3::Zero(),
                const Vec3& w = Vec3::Zero()) {
-        return world.addBody({.shape = shape,
-                              .material = steel,
-                              .mass = mass,
-                              .pose = {place, Quat::Identity()},
-                              .linear_velocity = v,
-                              .angular_velocity = w});
+        const BodyId body = JointBench::add(shape, mass, place);
+        world.setLinearVelocity(body, v);
+        world.setAngularVelocity(body, w);
+        return body;
     }
-    void run(double seconds) {
-        const auto steps = static_cast<int>(std::round(seconds * world.settings().steps_per_second));
-        for (int i = 0; i < steps; ++i) world.step();
-    }
-    double energy() const { return world.kineticEnergy() + world.potentialEnergy(); }
 };
 
 /// The period of a pendulum of length l in small and large swings. @param amplitude [rad]
