@@ -127,6 +127,14 @@ class TableEnd(enum.IntEnum):
     hold = 0
     repeat = 1
 
+class DriveOf(enum.IntEnum):
+    """What follows a function of time."""
+
+    position = 0
+    speed = 1
+    force = 2
+    torque = 3
+
 class Baseline(enum.IntEnum):
     """How an accelerogram is brought to an end."""
 
@@ -1884,6 +1892,33 @@ class SceneJoint(_Record):
     def second(self) -> Optional[int]:
         """Likewise: the joint that follows it."""
 
+class SceneDrive(_Record):
+    """Lets something follow a function of time: start plus the displacement of a law of motion."""
+
+    def __init__(
+        self,
+        what: Union[DriveOf, str],
+        target: int,
+        axis: int = ...,
+        start: ArrayLike = ...,
+        law: Union[ConstantMotion, SineMotion, TableMotion] = ...,
+    ) -> None: ...
+    @property
+    def what(self) -> DriveOf:
+        """Of the target: position, speed, force or torque."""
+    @property
+    def target(self) -> int:
+        """Index in Scene.joints or, of forces and torques, in Scene.bodies."""
+    @property
+    def axis(self) -> int:
+        """Which free axis of the joint."""
+    @property
+    def start(self) -> Floats:
+        """Its value at the beginning; of joints x counts."""
+    @property
+    def law(self) -> Union[ConstantMotion, SineMotion, TableMotion]:
+        """How it changes, in its unit in place of metres; without turns."""
+
 class SceneSpring(_Record):
     """A spring of a scene."""
 
@@ -2008,6 +2043,7 @@ class Scene(_Record):
         bodies: Sequence[SceneBody] = ...,
         springs: Sequence[SceneSpring] = ...,
         joints: Sequence[SceneJoint] = ...,
+        drives: Sequence[SceneDrive] = ...,
         preset: Optional[Union[Preset, str]] = ...,
         settings: Union[Mapping[str, SettingValue], Sequence[tuple[str, SettingValue]]] = ...,
     ) -> None: ...
@@ -2050,6 +2086,9 @@ class Scene(_Record):
     @property
     def joints(self) -> tuple[SceneJoint, ...]:
         """Between bodies, or a body and the world."""
+    @property
+    def drives(self) -> tuple[SceneDrive, ...]:
+        """What follows functions of time."""
     @property
     def preset(self) -> Optional[Preset]:
         """Where the settings begin; None = performance."""
