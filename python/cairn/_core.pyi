@@ -2556,6 +2556,15 @@ class Frame(_Record):
         kinetic_energy: float = ...,
         potential_energy: float = ...,
         step_hashes: ArrayLike = ...,
+        contact_a: ArrayLike = ...,
+        contact_b: ArrayLike = ...,
+        contact_point: ArrayLike = ...,
+        contact_normal: ArrayLike = ...,
+        contact_distance: ArrayLike = ...,
+        contact_impulse: ArrayLike = ...,
+        joint_point: ArrayLike = ...,
+        joint_force: ArrayLike = ...,
+        joint_torque: ArrayLike = ...,
     ) -> None: ...
     @property
     def time(self) -> float:
@@ -2577,7 +2586,7 @@ class Frame(_Record):
         """1 = asleep, shape (bodies,)."""
     @property
     def statistics(self) -> Statistics:
-        """Of the simulation step that led here."""
+        """Of the time steps since the last frame."""
     @property
     def kinetic_energy(self) -> float:
         """[J]"""
@@ -2586,7 +2595,57 @@ class Frame(_Record):
         """[J]"""
     @property
     def step_hashes(self) -> NDArray[np.uint64]:
-        """World.state_hash() after each time step of the simulation step; empty = not recorded."""
+        """World.state_hash() after each time step since the last frame; empty = not recorded."""
+    @property
+    def contact_a(self) -> NDArray[np.int64]:
+        """Of contacts after the last time step: indices in Scene.bodies, shape (contacts,); empty = not recorded."""
+    @property
+    def contact_b(self) -> NDArray[np.int64]:
+        """Indices in Scene.bodies, shape (contacts,)."""
+    @property
+    def contact_point(self) -> Floats:
+        """[m, W], shape (contacts, 3)."""
+    @property
+    def contact_normal(self) -> Floats:
+        """Unit, from B to A, W, shape (contacts, 3)."""
+    @property
+    def contact_distance(self) -> Floats:
+        """Along the normal [m], negative = overlap, shape (contacts,)."""
+    @property
+    def contact_impulse(self) -> Floats:
+        """That A received in the last time step [N s, W], shape (contacts, 3)."""
+    @property
+    def joint_point(self) -> Floats:
+        """Where A is joined [m, W], shape (joints, 3), NaN once it broke; empty = not recorded."""
+    @property
+    def joint_force(self) -> Floats:
+        """That A received there, mean over the last time step [N, W], shape (joints, 3)."""
+    @property
+    def joint_torque(self) -> Floats:
+        """That A received besides [N m, W], shape (joints, 3)."""
+
+class RecordingOptions(_Record):
+    """What is recorded besides the state of the bodies, and how often."""
+
+    def __init__(
+        self,
+        hashes_per_frame: int = ...,
+        frame_rate: float = ...,
+        contacts: bool = ...,
+        joints: bool = ...,
+    ) -> None: ...
+    @property
+    def hashes_per_frame(self) -> int:
+        """Entries of Frame.step_hashes, so that each can be verified; 0 = none."""
+    @property
+    def frame_rate(self) -> float:
+        """Frames per simulated second, at least 0.001, at most one per time step."""
+    @property
+    def contacts(self) -> bool:
+        """Contacts with their impulses."""
+    @property
+    def joints(self) -> bool:
+        """Forces of joints."""
 
 class RecordingInfo(_Record):
     """What stands in a recording apart from its frames."""
@@ -2600,6 +2659,9 @@ class RecordingInfo(_Record):
         frames: int = ...,
         bodies: int = ...,
         hashes_per_frame: int = ...,
+        frame_rate: float = ...,
+        contacts: bool = ...,
+        joints: bool = ...,
     ) -> None: ...
     @property
     def scene(self) -> Scene:
@@ -2622,6 +2684,15 @@ class RecordingInfo(_Record):
     @property
     def hashes_per_frame(self) -> int:
         """0 = recorded without hashes."""
+    @property
+    def frame_rate(self) -> float:
+        """Frames per simulated second [1/s]."""
+    @property
+    def contacts(self) -> bool:
+        """Whether frames have contacts."""
+    @property
+    def joints(self) -> bool:
+        """Whether frames have the forces of joints."""
 
 class RecordingDifference(_Record):
     """Where a simulation left its recording."""
@@ -2640,7 +2711,7 @@ class RecordingDifference(_Record):
 class RecordingWriter:
     """Writes a recording; what was appended can be read while it is written and after a crash."""
 
-    def __init__(self, file: FilePath, scene: Scene, settings: Settings, hashes_per_frame: int = ...) -> None:
+    def __init__(self, file: FilePath, scene: Scene, settings: Settings, options: RecordingOptions = ...) -> None:
         """Raises IoError."""
     def append(self, frame: Frame) -> None:
         """Raises IoError; frames before it stay readable."""
@@ -2690,8 +2761,10 @@ def write_checkpoint(run: SceneRun, file: FilePath) -> None:
     """Writes a run to a file, which is complete whatever happens. Raises IoError."""
 def read_checkpoint(file: FilePath) -> SceneRun:
     """Raises IoError if it cannot be read, InputError if it is damaged."""
-def capture_frame(run: SceneRun, statistics: Optional[Statistics] = ...) -> Frame:
-    """The present state of a run. statistics: of the simulation step that led here."""
+def is_frame_due(run: SceneRun, frame_rate: float) -> bool:
+    """Whether a frame is to be taken after the last time step: the first at or after a multiple of 1/frame_rate."""
+def capture_frame(run: SceneRun, statistics: Optional[Statistics] = ..., what: RecordingOptions = ...) -> Frame:
+    """The present state of a run. statistics: of the time steps since the last frame. what: besides the bodies."""
 def verify_recording(recording: RecordingReader, threads: int = ...) -> Optional[RecordingDifference]:
     """Simulates again and compares bit by bit. Returns the first difference, or None. Raises InputError."""
 def export_csv(recording: RecordingReader, file: FilePath) -> None:
