@@ -25,11 +25,11 @@ Scene sceneFrom(const RunOptions& options) {
 }
 
 int runScene(const RunOptions& options) {
-    const Scene scene = sceneFrom(options);
+    Scene scene = sceneFrom(options);
     const Settings settings = settingsFor(scene, overridesFrom(options.overrides, scene));
     refuseSameFiles(options.outputs, isBuiltInScene(options.scene) ? "" : options.scene);
     const std::filesystem::path checkpoint = usualCheckpointFile(scene.name);
-    return runToTheEnd(SceneRun(scene, settings), options.outputs, checkpoint);
+    return runToTheEnd(SceneRun(std::move(scene), settings), options.outputs, checkpoint);
 }
 
 }  // namespace

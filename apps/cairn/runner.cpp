@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "cli/interrupt.h"
@@ -39,8 +40,13 @@ class Runner {
         if (checkpoints_) checkpoints_->write(run_);
         hashed_ = options.hashes;
         if (!options.record.empty()) {
-            const auto hashes = static_cast<std::size_t>(hashed_ ? run_.stepsPerSimulationStep() : 0);
-            recording_.emplace(options.record, run_.scene(), run_.world().settings(), hashes);
+            const double steps = run_.world().settings().steps_per_second;
+            recorded_.frame_rate = options.frame_rate;
+            recorded_.hashes_per_frame =
+                static_cast<std::size_t>(hashed_ ? std::lround(steps / options.frame_rate) : 0);
+            recorded_.contacts = options.record_contacts;
+            recorded_.joints = options.record_joints;
+            recording_.emplace(options.record, run_.scene(), run_.world().settings(), recorded_);
         }
         if (!options.stats.empty()) stats_.emplace(options.stats, run_.world().settings());
     }
@@ -53,7 +59,7 @@ class Runner {
         const std::int64_t done = run_.world().stepCount() / run_.stepsPerSimulationStep();
         Progress progress(duration, progress_wish);
         try {
-            record({});
+            record();
             for (std::int64_t left = std::max<std::int64_t>(all, 1) - done; left > 0; --left) {
                 if (interrupted()) return interruption();
                 step();
@@ -71,20 +77,34 @@ class Runner {
     Report report() const { return makeReport(run_, measurements_); }
 
   private:
+    /// A simulation step of 1/30 s; frames are recorded within it, too.
     void step() {
-        using Milliseconds = std::chrono::duration<double, std::milli>;
-        const auto begin = std::chrono::steady_clock::now();
-        const Statistics statistics = hashed_ ? run_.simulationStep(hashes_) : run_.simulationStep();
-        const double ms = Milliseconds(std::chrono::steady_clock::now() - begin).count();
-        measurements_.add(ms, statistics);
-        record(statistics);
-        if (stats_) stats_->add(run_.world(), ms, statistics);
+        double ms = 0;
+        Statistics sum;
+        for (int left = run_.stepsPerSimulationStep(); left > 0; --left) {
+            ms += timeStep();
+            sum.add(run_.world().statistics());
+            if (recording_ && isFrameDue(run_, recorded_.frame_rate)) record();
+        }
+        measurements_.add(ms, sum);
+        if (stats_) stats_->add(run_.world(), ms, sum);
     }
 
-    void record(const Statistics& statistics) {
+    /// @return wall time [ms]
+    double timeStep() {
+        using Milliseconds = std::chrono::duration<double, std::milli>;
+        const auto begin = std::chrono::steady_clock::now();
+        run_.step();
+        if (hashed_) hashes_.push_back(run_.world().stateHash());
+        since_frame_.add(run_.world().statistics());
+        return Milliseconds(std::chrono::steady_clock::now() - begin).count();
+    }
+
+    void record() {
         if (!recording_) return;
-        Frame frame = captureFrame(run_, statistics);
-        frame.step_hashes = hashes_;
+        Frame frame = captureFrame(run_, since_frame_, recorded_);
+        frame.step_hashes = std::exchange(hashes_, {});
+        since_frame_ = {};
         recording_->append(frame);
     }
 
@@ -99,9 +119,11 @@ class Runner {
     std::optional<Checkpointer> checkpoints_;
     std::optional<RecordingWriter> recording_;
     std::optional<StatsCsv> stats_;
+    RecordingOptions recorded_;
     Measurements measurements_;
     bool hashed_ = false;
-    std::vector<std::uint64_t> hashes_;  ///< of the last simulation step
+    std::vector<std::uint64_t> hashes_;  ///< of the time steps since the last frame
+    Statistics since_frame_;             ///< of the same
 };
 
 /// Fewer time steps per second than this the thesis does not allow.
@@ -120,6 +142,10 @@ void warnOfLongSteps(const Settings& settings) {
 void addOutputOptions(CLI::App& command, OutputOptions& options) {
     command.add_option("--record", options.record, "Write a recording (HDF5)")->type_name("FILE");
     command.add_flag("--hashes", options.hashes, "Record a hash of every time step, for 'cairn replay --verify'");
+    command.add_option("--frame-rate", options.frame_rate, "Frames of the recording per simulated second; default: 30")
+        ->type_name("F");
+    command.add_flag("--record-contacts", options.record_contacts, "Record contacts with their impulses, too");
+    command.add_flag("--record-joints", options.record_joints, "Record the forces of joints, too");
     command.add_option("--stats", options.stats, "Write the statistics of every simulation step (CSV)")
         ->type_name("FILE");
     command.add_option("--checkpoint", options.checkpoint, checkpoint_help)->type_name(checkpoint_form);
@@ -129,7 +155,12 @@ void addOutputOptions(CLI::App& command, OutputOptions& options) {
 }
 
 void refuseSameFiles(const OutputOptions& options, const std::string& input) {
-    if (options.hashes && options.record.empty()) throw InputError("--hashes needs --record, which keeps them");
+    if (options.record.empty()) {
+        if (options.hashes) throw InputError("--hashes needs --record, which keeps them");
+        if (options.record_contacts) throw InputError("--record-contacts needs --record, which keeps them");
+        if (options.record_joints) throw InputError("--record-joints needs --record, which keeps them");
+        if (options.frame_rate != simulation_steps_per_second) throw InputError("--frame-rate needs --record");
+    }
     const auto same = [](const std::string& a, const std::string& b) {
         if (a.empty() || b.empty()) return false;
         std::error_code unknown;

@@ -19,6 +19,9 @@ namespace cairn::cli {
 struct OutputOptions {
     std::string record;
     bool hashes = false;
+    double frame_rate = simulation_steps_per_second;
+    bool record_contacts = false;
+    bool record_joints = false;
     std::string stats;
     std::string checkpoint;
     bool check = false;
@@ -26,7 +29,8 @@ struct OutputOptions {
     bool quiet = false;
 };
 
-/// Adds --record, --hashes, --stats, --checkpoint, --check, --json and --quiet. @param options must outlive the command
+/// Adds --record, --hashes, --frame-rate, --record-contacts, --record-joints, --stats, --checkpoint, --check, --json
+/// and --quiet. @param options must outlive the command
 void addOutputOptions(CLI::App& command, OutputOptions& options);
 
 /// Two outputs must not be one file, nor any of them the input. @param input empty = no file @throws InputError

@@ -1,6 +1,7 @@
 #include "cli/view_exports.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/companions.h"
 
@@ -18,6 +19,11 @@ void addViewExports(CLI::App& command, CLI::App& formats, ViewExports& exports) 
     command.add_option("--speed", exports.speed, "Simulated seconds per second of the film; default: 1");
     command.add_option("--camera", exports.camera, "Position of the camera and the point it looks at [m]: x y z x y z")
         ->expected(6);
+    command
+        .add_option("--layers", exports.layers,
+                    "What picture and film show over the bodies: none, or any of joints,laws,points,normals,impulses,"
+                    "friction; default: joints,laws")
+        ->delimiter(',');
     command.add_option("--theme", exports.theme, "light (also the default) or dark")
         ->check(CLI::IsMember({"light", "dark"}));
 }
@@ -35,6 +41,7 @@ int writeViewExports(const std::string& recording, const ViewExports& exports) {
         add({"--camera"});
         for (const double number : exports.camera) add({fmt::format("{}", number)});
     }
+    if (!exports.layers.empty()) add({"--layers", fmt::format("{}", fmt::join(exports.layers, ","))});
     return runCompanion(view_companion, arguments);
 }
 

@@ -17,6 +17,7 @@ struct ViewExports {
     double speed = 1;
     std::vector<double> camera;  ///< empty = chosen so that everything is seen
     std::string theme = "light";
+    std::vector<std::string> layers;  ///< of picture and film; empty = joints and laws
 
     bool any() const { return !html.empty() || !png.empty() || !mp4.empty(); }
 };

@@ -90,6 +90,8 @@ view::FilmOptions filmFrom(const ViewExports& exports) {
     film.speed = exports.speed;
     film.theme = exports.theme == "dark" ? view::FilmOptions::Theme::dark : view::FilmOptions::Theme::light;
     if (!exports.camera.empty()) film.camera = exports.camera;
+    if (!exports.layers.empty()) film.layers = exports.layers;
+    if (exports.layers == std::vector<std::string>{"none"}) film.layers.clear();
     return film;
 }
 

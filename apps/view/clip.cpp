@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::uint32_t clip_version = 2;
+constexpr std::uint32_t clip_version = 3;
 constexpr std::uint8_t clip_present = 1;
 constexpr std::uint8_t clip_asleep = 2;
 constexpr std::uint8_t clip_fixed = 4;
@@ -95,6 +95,7 @@ class ClipWriter {
                                                  (frame.asleep[body] != 0 ? clip_asleep : 0) |
                                                  (scene_.bodies[body].fixed ? clip_fixed : 0)));
         }
+        putContacts(frame);
         std::vector<double> values;
         appendSample({frame.time, frame.statistics, frame.kinetic_energy, frame.potential_energy}, values);
         samples_.putAll(std::span<const double>(values));
@@ -108,7 +109,7 @@ class ClipWriter {
         out.put(static_cast<std::uint32_t>(head.size()));
         out.putText(head);
         for (const std::string& stream : {times_.take(), flags_.take(), positions_.take(), orientations_.take(),
-                                          velocities_.take(), spins_.take(), samples_.take()}) {
+                                          velocities_.take(), spins_.take(), samples_.take(), contacts_.take()}) {
             out.put(static_cast<std::uint64_t>(stream.size()));
             out.putText(stream);
         }
@@ -116,6 +117,22 @@ class ClipWriter {
     }
 
   private:
+    /// Their number, then each as in the frames of a live world.
+    void putContacts(const Frame& frame) {
+        const auto putVector = [this](const Vec3& v) {
+            for (int k = 0; k < 3; ++k) contacts_.put(static_cast<float>(v[k]));
+        };
+        contacts_.put(static_cast<std::uint32_t>(frame.contact_a.size()));
+        for (std::size_t i = 0; i < frame.contact_a.size(); ++i) {
+            contacts_.put(static_cast<std::uint32_t>(frame.contact_a[i]));
+            contacts_.put(static_cast<std::uint32_t>(frame.contact_b[i]));
+            contacts_.put(static_cast<float>(frame.contact_distance[i]));
+            putVector(frame.contact_point[i]);
+            putVector(frame.contact_normal[i]);
+            putVector(frame.contact_impulse[i]);
+        }
+    }
+
     static bool isPresent(const Frame& frame, std::size_t body) { return frame.position[body].allFinite(); }
 
     void putVectors(const Frame& frame, DeltaStream& stream, const std::vector<Vec3>& values, int k) {
@@ -152,19 +169,21 @@ class ClipWriter {
     }
 
     const Scene& scene_;
-    ByteWriter times_, flags_, samples_;
+    ByteWriter times_, flags_, samples_, contacts_;
     DeltaStream positions_, orientations_, velocities_, spins_;
 };
 
 json describeSceneBody(const SceneRun& run, std::size_t index) {
     const Scene& scene = run.scene();
     const SceneBody& body = scene.bodies[index];
-    const double mass = run.world().mass(run.ids()[index]);
     std::size_t material = 0;
     while (material + 1 < scene.materials.size() && scene.materials[material].name != body.material) ++material;
-    return {{"slot", index},        {"generation", 0},
-            {"name", body.name},    {"shape", toJson(body.shape)},
-            {"material", material}, {"mass", std::isfinite(mass) ? json(mass) : json(nullptr)}};
+    // As a live world tells of it, but by the numbers of the scene.
+    json described = describeBody(run.world(), run.ids()[index]);
+    described["slot"] = index;
+    described["generation"] = 0;
+    described["material"] = material;
+    return described;
 }
 
 /// A line between two bodies, or a body and the world. @param b none = the world
@@ -217,6 +236,7 @@ json makeHeader(const RecordingInfo& info) {
             {"joints", describeJoints(run)},
             {"springs", describeSprings(info.scene)},
             {"frames", info.frames},
+            {"contacts", info.contacts},
             {"stages", describeStages()},
             {"sampleFields", sampleFields()},
             {"positionUnit", ClipUnits::position},

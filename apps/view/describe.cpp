@@ -120,13 +120,53 @@ std::string describeShape(const Shape& shape) {
         shape);
 }
 
+namespace {
+
+/// The longest of some vectors from the first on, or zero.
+Vec3 farthest(const std::vector<Vec3>& vectors) {
+    Vec3 longest = Vec3::Zero();
+    for (const Vec3& v : vectors) {
+        const Vec3 way = v - vectors.front();
+        if (way.norm() > longest.norm()) longest = way;
+    }
+    return longest;
+}
+
+json motionOf(const Motion& motion) {
+    return std::visit(
+        Overloaded{[](const ConstantMotion& m) -> json {
+                       return {{"velocity", toJson(m.velocity)}, {"spin", toJson(m.spin)}};
+                   },
+                   [](const SineMotion& m) -> json {
+                       return {{"swing", toJson(m.amplitude)}, {"turn", toJson(m.turn)}};
+                   },
+                   [](const TableMotion& m) -> json {
+                       return {{"swing", toJson(farthest(m.displacements))}, {"turn", toJson(farthest(m.turns))}};
+                   }},
+        motion);
+}
+
+/// How a fixed body moves and its surface runs; empty for all others.
+json lawOf(const World& world, BodyId id) {
+    const std::optional<Motion> motion = world.motion(id);
+    json law = motion ? motionOf(*motion) : json::object();
+    const Vec3 surface = world.surfaceVelocity(id);
+    if (!surface.isZero(0)) law["surface"] = toJson(surface);
+    return law;
+}
+
+}  // namespace
+
 json describeBody(const World& world, BodyId id) {
-    return {{"slot", id.index},
-            {"generation", id.generation},
-            {"name", world.name(id)},
-            {"shape", toJson(world.shape(id))},
-            {"material", static_cast<std::uint32_t>(world.material(id))},
-            {"mass", finiteOrNull(world.mass(id))}};
+    json body = {{"slot", id.index},
+                 {"generation", id.generation},
+                 {"name", world.name(id)},
+                 {"shape", toJson(world.shape(id))},
+                 {"material", static_cast<std::uint32_t>(world.material(id))},
+                 {"mass", finiteOrNull(world.mass(id))}};
+    if (world.isSensor(id)) body["sensor"] = true;
+    if (json law = lawOf(world, id); !law.empty()) body["law"] = std::move(law);
+    return body;
 }
 
 json describeSettings(const Settings& settings) {

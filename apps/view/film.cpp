@@ -1,8 +1,11 @@
 #include "film.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <unistd.h>
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -22,10 +25,11 @@ using nlohmann::json;
 
 namespace {
 
+constexpr std::array<std::string_view, 6> layer_names = {"joints", "laws", "points", "normals", "impulses", "friction"};
 constexpr std::size_t longest_picture = 64 << 20;  // [bytes]
 constexpr auto picture_timeout = std::chrono::seconds(90);
 
-void validate(const FilmOptions& options) {
+void validate(const FilmOptions& options, const RecordingInfo& info) {
     for (const int edge : {options.width, options.height}) {
         if (edge < 16 || edge > 4096 || edge % 2 != 0) {
             throw InputError(
@@ -35,6 +39,19 @@ void validate(const FilmOptions& options) {
     }
     if (!(options.speed >= 0.01 && options.speed <= 100)) {
         throw InputError(fmt::format("the speed of a film is {}; allowed is 0.01 to 100", options.speed));
+    }
+    for (const std::string& layer : options.layers) {
+        const auto known = std::ranges::find(layer_names, layer);
+        if (known == layer_names.end()) {
+            throw InputError(
+                fmt::format("the layer '{}' is not known; known are {}", layer, fmt::join(layer_names, ", ")));
+        }
+        if (known - layer_names.begin() >= 2 && !info.contacts) {
+            throw InputError(
+                fmt::format("the layer '{}' needs contacts, which the recording does not hold; record it "
+                            "with --record-contacts",
+                            layer));
+        }
     }
     if (options.camera && options.camera->size() != 6) {
         throw InputError(fmt::format("a camera needs six numbers, position and the point looked at; it has {}",
@@ -119,6 +136,7 @@ json filmHello(const FilmOptions& options, const std::vector<double>& times, std
               {"format", format},
               {"times", times},
               {"camera", options.camera ? json(*options.camera) : json(nullptr)},
+              {"layers", options.layers},
               {"theme", options.theme == FilmOptions::Theme::dark ? "dark" : "light"}}}};
 }
 
@@ -126,7 +144,7 @@ json filmHello(const FilmOptions& options, const std::vector<double>& times, std
 template <typename Take>
 void drawPictures(const RecordingReader& recording, const std::vector<double>& times, const FilmOptions& options,
                   std::string_view format, const Take& take) {
-    validate(options);
+    validate(options, recording.info());
     ServerOptions serving;
     serving.token = makeToken();
     serving.clips = {std::make_shared<const std::string>(makeClip(recording))};
@@ -181,7 +199,7 @@ void exportPicture(const RecordingReader& recording, double time, const FilmOpti
 }
 
 void exportFilm(const RecordingReader& recording, const FilmOptions& options, const std::filesystem::path& file) {
-    validate(options);
+    validate(options, recording.info());
     const std::string ffmpeg = findProgram({"ffmpeg"});
     if (ffmpeg.empty())
         throw IoError("films are encoded by ffmpeg, which is not installed; install the package ffmpeg");

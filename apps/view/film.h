@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cairn/recording.h"
@@ -17,6 +18,9 @@ struct FilmOptions {
     double speed = 1;  ///< simulated seconds per second of the film
     enum class Theme { light, dark } theme = Theme::light;
     std::optional<std::vector<double>> camera;  ///< position and the point looked at: six numbers [m, W]
+    /// What is drawn over the bodies: joints and laws; of a recording with contacts points, normals, impulses,
+    /// friction.
+    std::vector<std::string> layers = {"joints", "laws"};
     /// Called after each picture with their number and the total; returns false to stop.
     std::function<bool(std::size_t, std::size_t)> progress;
 };

@@ -1,4 +1,4 @@
-/// @file Recordings: HDF5 files with one frame per simulation step, and their exports.
+/// @file Recordings: HDF5 files with frames at a steady rate, and their exports.
 #pragma once
 
 #include <cstdint>
@@ -20,23 +20,50 @@ struct Frame {
     std::vector<Vec3> linear_velocity;   ///< [m/s, W]
     std::vector<Vec3> angular_velocity;  ///< [rad/s, W]
     std::vector<std::uint8_t> asleep;    ///< 1 = asleep
-    Statistics statistics;               ///< of the simulation step that led here
+    Statistics statistics;               ///< of the time steps since the last frame
     double kinetic_energy = 0;           ///< [J]
     double potential_energy = 0;         ///< [J]
-    /// World::stateHash() after each time step of the simulation step that led here; empty = not recorded.
+    /// World::stateHash() after each time step since the last frame; empty = not recorded.
     std::vector<std::uint64_t> step_hashes;
+
+    // Contacts between bodies of the scene as they were after the last time step, in the order of World::contacts();
+    // empty unless they are recorded.
+    std::vector<std::int64_t> contact_a;   ///< index in Scene::bodies
+    std::vector<std::int64_t> contact_b;   ///< index in Scene::bodies
+    std::vector<Vec3> contact_point;       ///< [m, W]
+    std::vector<Vec3> contact_normal;      ///< unit, from B to A, W
+    std::vector<double> contact_distance;  ///< along the normal [m]; negative = overlap
+    std::vector<Vec3> contact_impulse;     ///< that A received in the last time step [N·s, W]
+
+    // One entry per joint of the scene, NaN once it broke; empty unless they are recorded.
+    std::vector<Vec3> joint_point;   ///< where A is joined [m, W]
+    std::vector<Vec3> joint_force;   ///< that A received there, mean over the last time step [N, W]
+    std::vector<Vec3> joint_torque;  ///< that A received besides [N·m, W]
 };
 
-/// Takes the present state of a run. @param statistics of the simulation step that led here
-Frame captureFrame(const SceneRun& run, const Statistics& statistics);
+/// What is recorded besides the state of the bodies, and how often.
+struct RecordingOptions {
+    std::size_t hashes_per_frame = 0;  ///< entries of Frame::step_hashes, so that each can be verified; 0 = none
+    double frame_rate =
+        simulation_steps_per_second;  ///< frames per simulated second, ≥ 0.001, at most one per time step
+    bool contacts = false;            ///< contacts with their impulses
+    bool joints = false;              ///< forces of joints
+};
+
+/// Whether a frame is to be taken after the last time step: it is the first that ended at a multiple of 1/frame_rate
+/// or after it. @param frame_rate [1/s]
+bool isFrameDue(const SceneRun& run, double frame_rate);
+/// Takes the present state of a run. @param statistics of the time steps since the last frame @param what to take
+/// besides the bodies @pre no joint was removed before one of the scene
+Frame captureFrame(const SceneRun& run, const Statistics& statistics, const RecordingOptions& what = {});
 
 /// Writes a recording; what was appended can be read while it is written and after a crash.
 class RecordingWriter {
   public:
-    /// @param hashes_per_frame entries of Frame::step_hashes, so that the recording can be verified; 0 = none
-    /// @throws IoError if the file cannot be written
+    /// @throws InputError for a frame rate out of range, or one that gives frames of another number of time steps than
+    /// hashes; IoError if the file cannot be written
     RecordingWriter(const std::filesystem::path& file, const Scene& scene, const Settings& settings,
-                    std::size_t hashes_per_frame = 0);
+                    const RecordingOptions& options = {});
     ~RecordingWriter();
     RecordingWriter(const RecordingWriter&) = delete;
     RecordingWriter& operator=(const RecordingWriter&) = delete;
@@ -60,6 +87,9 @@ struct RecordingInfo {
     std::size_t frames = 0;
     std::size_t bodies = 0;
     std::size_t hashes_per_frame = 0;  ///< 0 = recorded without hashes
+    double frame_rate = 0;             ///< frames per simulated second [1/s]
+    bool contacts = false;             ///< whether frames have contacts
+    bool joints = false;               ///< whether frames have the forces of joints
 };
 
 /// Reads a recording.
@@ -93,7 +123,8 @@ std::optional<RecordingDifference> verifyRecording(const RecordingReader& record
 
 /// One row per frame and body: frame,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,asleep. @throws IoError
 void exportCsv(const RecordingReader& recording, const std::filesystem::path& file);
-/// A ParaView time series: OUT.pvd beside a folder of .vtp files with every body's surface. @throws IoError
+/// A ParaView time series: OUT.pvd beside a folder of .vtp files with every body's surface; of a recording with
+/// contacts or joints also OUT_forces.pvd, whose lines lead from bodies to where forces act on them. @throws IoError
 void exportVtk(const RecordingReader& recording, const std::filesystem::path& file);
 
 }  // namespace cairn

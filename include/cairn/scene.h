@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -80,6 +81,23 @@ struct SceneSpring {
     double rest_length = 0;        ///< [m]
 };
 
+/// What follows a function of time.
+enum class DriveOf : std::uint8_t {
+    position,  ///< of a servo [rad or m]; its speed follows as the rate
+    speed,     ///< of a motor or a servo [rad/s or m/s]
+    force,     ///< on a body, at its centre of mass [N, W]
+    torque,    ///< on a body [N·m, W]
+};
+
+/// Lets something follow a function of time: at time t it is `start` plus the displacement of a law of motion at t.
+struct SceneDrive {
+    DriveOf what = DriveOf::position;  ///< of the target
+    std::size_t target = 0;            ///< index in Scene::joints or, of forces and torques, in Scene::bodies
+    std::size_t axis = 0;              ///< which free axis of the joint
+    Vec3 start = Vec3::Zero();         ///< its value at the beginning; of joints x counts
+    Motion law = ConstantMotion{};     ///< how it changes, in its unit in place of metres; without turns
+};
+
 /// An event sets gravity.
 struct SetGravity {
     Vec3 gravity;  ///< [m/s², W]
@@ -132,6 +150,7 @@ struct Scene {
     std::vector<SceneBody> bodies;
     std::vector<SceneSpring> springs;
     std::vector<SceneJoint> joints;
+    std::vector<SceneDrive> drives;
     std::optional<Preset> preset;                                ///< of `settings.preset`
     std::vector<std::pair<std::string, SettingValue>> settings;  ///< the other fields of `settings`
 };
@@ -169,11 +188,13 @@ struct SettingOverrides {
 /// weakest gravity the scene has at any time, then the scene's fields, then the overrides. @throws InputError
 Settings settingsFor(const Scene& scene, const SettingOverrides& overrides = {});
 
+class MotionCurve;
+
 /// A scene in a world, with its events.
 class SceneRun {
   public:
     /// @throws InputError
-    SceneRun(const Scene& scene, const Settings& settings);
+    SceneRun(Scene scene, const Settings& settings);
 
     World& world() { return world_; }              ///< may be changed between steps
     const World& world() const { return world_; }  ///< as it is after the last step
@@ -201,10 +222,12 @@ class SceneRun {
   private:
     SceneRun(Scene scene, World world, std::vector<BodyId> ids, std::size_t next_event);
     void apply(const EventAction& action);
+    void takeDrives();
 
     Scene scene_;
     World world_;
     std::vector<BodyId> ids_;
+    std::vector<std::shared_ptr<const MotionCurve>> curves_;  ///< of Scene::drives, by index
     std::size_t next_event_ = 0;
 };
 

@@ -127,6 +127,14 @@ class TableEnd(enum.IntEnum):
     hold = 0
     repeat = 1
 
+class DriveOf(enum.IntEnum):
+    """What follows a function of time."""
+
+    position = 0
+    speed = 1
+    force = 2
+    torque = 3
+
 class Baseline(enum.IntEnum):
     """How an accelerogram is brought to an end."""
 
@@ -1868,6 +1876,33 @@ class SceneJoint(_Record):
     def second(self) -> Optional[int]:
         """Likewise: the joint that follows it."""
 
+class SceneDrive(_Record):
+    """Lets something follow a function of time: start plus the displacement of a law of motion."""
+
+    def __init__(
+        self,
+        what: Union[DriveOf, str],
+        target: int,
+        axis: int = ...,
+        start: ArrayLike = ...,
+        law: Union[ConstantMotion, SineMotion, TableMotion] = ...,
+    ) -> None: ...
+    @property
+    def what(self) -> DriveOf:
+        """Of the target: position, speed, force or torque."""
+    @property
+    def target(self) -> int:
+        """Index in Scene.joints or, of forces and torques, in Scene.bodies."""
+    @property
+    def axis(self) -> int:
+        """Which free axis of the joint."""
+    @property
+    def start(self) -> Floats:
+        """Its value at the beginning; of joints x counts."""
+    @property
+    def law(self) -> Union[ConstantMotion, SineMotion, TableMotion]:
+        """How it changes, in its unit in place of metres; without turns."""
+
 class SceneSpring(_Record):
     """A spring of a scene."""
 
@@ -1992,6 +2027,7 @@ class Scene(_Record):
         bodies: Sequence[SceneBody] = ...,
         springs: Sequence[SceneSpring] = ...,
         joints: Sequence[SceneJoint] = ...,
+        drives: Sequence[SceneDrive] = ...,
         preset: Optional[Union[Preset, str]] = ...,
         settings: Union[Mapping[str, SettingValue], Sequence[tuple[str, SettingValue]]] = ...,
     ) -> None: ...
@@ -2034,6 +2070,9 @@ class Scene(_Record):
     @property
     def joints(self) -> tuple[SceneJoint, ...]:
         """Between bodies, or a body and the world."""
+    @property
+    def drives(self) -> tuple[SceneDrive, ...]:
+        """What follows functions of time."""
     @property
     def preset(self) -> Optional[Preset]:
         """Where the settings begin; None = performance."""
@@ -2501,6 +2540,15 @@ class Frame(_Record):
         kinetic_energy: float = ...,
         potential_energy: float = ...,
         step_hashes: ArrayLike = ...,
+        contact_a: ArrayLike = ...,
+        contact_b: ArrayLike = ...,
+        contact_point: ArrayLike = ...,
+        contact_normal: ArrayLike = ...,
+        contact_distance: ArrayLike = ...,
+        contact_impulse: ArrayLike = ...,
+        joint_point: ArrayLike = ...,
+        joint_force: ArrayLike = ...,
+        joint_torque: ArrayLike = ...,
     ) -> None: ...
     @property
     def time(self) -> float:
@@ -2522,7 +2570,7 @@ class Frame(_Record):
         """1 = asleep, shape (bodies,)."""
     @property
     def statistics(self) -> Statistics:
-        """Of the simulation step that led here."""
+        """Of the time steps since the last frame."""
     @property
     def kinetic_energy(self) -> float:
         """[J]"""
@@ -2531,7 +2579,57 @@ class Frame(_Record):
         """[J]"""
     @property
     def step_hashes(self) -> NDArray[np.uint64]:
-        """World.state_hash() after each time step of the simulation step; empty = not recorded."""
+        """World.state_hash() after each time step since the last frame; empty = not recorded."""
+    @property
+    def contact_a(self) -> NDArray[np.int64]:
+        """Of contacts after the last time step: indices in Scene.bodies, shape (contacts,); empty = not recorded."""
+    @property
+    def contact_b(self) -> NDArray[np.int64]:
+        """Indices in Scene.bodies, shape (contacts,)."""
+    @property
+    def contact_point(self) -> Floats:
+        """[m, W], shape (contacts, 3)."""
+    @property
+    def contact_normal(self) -> Floats:
+        """Unit, from B to A, W, shape (contacts, 3)."""
+    @property
+    def contact_distance(self) -> Floats:
+        """Along the normal [m], negative = overlap, shape (contacts,)."""
+    @property
+    def contact_impulse(self) -> Floats:
+        """That A received in the last time step [N s, W], shape (contacts, 3)."""
+    @property
+    def joint_point(self) -> Floats:
+        """Where A is joined [m, W], shape (joints, 3), NaN once it broke; empty = not recorded."""
+    @property
+    def joint_force(self) -> Floats:
+        """That A received there, mean over the last time step [N, W], shape (joints, 3)."""
+    @property
+    def joint_torque(self) -> Floats:
+        """That A received besides [N m, W], shape (joints, 3)."""
+
+class RecordingOptions(_Record):
+    """What is recorded besides the state of the bodies, and how often."""
+
+    def __init__(
+        self,
+        hashes_per_frame: int = ...,
+        frame_rate: float = ...,
+        contacts: bool = ...,
+        joints: bool = ...,
+    ) -> None: ...
+    @property
+    def hashes_per_frame(self) -> int:
+        """Entries of Frame.step_hashes, so that each can be verified; 0 = none."""
+    @property
+    def frame_rate(self) -> float:
+        """Frames per simulated second, at least 0.001, at most one per time step."""
+    @property
+    def contacts(self) -> bool:
+        """Contacts with their impulses."""
+    @property
+    def joints(self) -> bool:
+        """Forces of joints."""
 
 class RecordingInfo(_Record):
     """What stands in a recording apart from its frames."""
@@ -2545,6 +2643,9 @@ class RecordingInfo(_Record):
         frames: int = ...,
         bodies: int = ...,
         hashes_per_frame: int = ...,
+        frame_rate: float = ...,
+        contacts: bool = ...,
+        joints: bool = ...,
     ) -> None: ...
     @property
     def scene(self) -> Scene:
@@ -2567,6 +2668,15 @@ class RecordingInfo(_Record):
     @property
     def hashes_per_frame(self) -> int:
         """0 = recorded without hashes."""
+    @property
+    def frame_rate(self) -> float:
+        """Frames per simulated second [1/s]."""
+    @property
+    def contacts(self) -> bool:
+        """Whether frames have contacts."""
+    @property
+    def joints(self) -> bool:
+        """Whether frames have the forces of joints."""
 
 class RecordingDifference(_Record):
     """Where a simulation left its recording."""
@@ -2585,7 +2695,7 @@ class RecordingDifference(_Record):
 class RecordingWriter:
     """Writes a recording; what was appended can be read while it is written and after a crash."""
 
-    def __init__(self, file: FilePath, scene: Scene, settings: Settings, hashes_per_frame: int = ...) -> None:
+    def __init__(self, file: FilePath, scene: Scene, settings: Settings, options: RecordingOptions = ...) -> None:
         """Raises IoError."""
     def append(self, frame: Frame) -> None:
         """Raises IoError; frames before it stay readable."""
@@ -2635,8 +2745,10 @@ def write_checkpoint(run: SceneRun, file: FilePath) -> None:
     """Writes a run to a file, which is complete whatever happens. Raises IoError."""
 def read_checkpoint(file: FilePath) -> SceneRun:
     """Raises IoError if it cannot be read, InputError if it is damaged."""
-def capture_frame(run: SceneRun, statistics: Optional[Statistics] = ...) -> Frame:
-    """The present state of a run. statistics: of the simulation step that led here."""
+def is_frame_due(run: SceneRun, frame_rate: float) -> bool:
+    """Whether a frame is to be taken after the last time step: the first at or after a multiple of 1/frame_rate."""
+def capture_frame(run: SceneRun, statistics: Optional[Statistics] = ..., what: RecordingOptions = ...) -> Frame:
+    """The present state of a run. statistics: of the time steps since the last frame. what: besides the bodies."""
 def verify_recording(recording: RecordingReader, threads: int = ...) -> Optional[RecordingDifference]:
     """Simulates again and compares bit by bit. Returns the first difference, or None. Raises InputError."""
 def export_csv(recording: RecordingReader, file: FilePath) -> None:

@@ -62,6 +62,8 @@ class Recording:
     position [m, W], linear_velocity [m/s, W], angular_velocity [rad/s, W]: shape (frames, bodies, 3);
     orientation, B to W as (w, x, y, z): shape (frames, bodies, 4); asleep: shape (frames, bodies).
     A removed body's position is NaN.
+    joint_point [m, W], joint_force [N, W], joint_torque [N m, W]: shape (frames, joints, 3), without joints if they were
+    not recorded. Frames differ in the number of their contacts: recording[i].contact_impulse and the like.
 
     Raises IoError if the file is missing, truncated or not a recording.
     """
@@ -79,6 +81,10 @@ class Recording:
         self.linear_velocity = Series(self, "linear_velocity", (frames, bodies, 3), np.float64)
         self.angular_velocity = Series(self, "angular_velocity", (frames, bodies, 3), np.float64)
         self.asleep = Series(self, "asleep", (frames, bodies), np.uint8)
+        joints = len(self.scene.joints) if self._reader.info.joints else 0
+        self.joint_point = Series(self, "joint_point", (frames, joints, 3), np.float64)
+        self.joint_force = Series(self, "joint_force", (frames, joints, 3), np.float64)
+        self.joint_torque = Series(self, "joint_torque", (frames, joints, 3), np.float64)
 
     @property
     def info(self) -> _core.RecordingInfo:
@@ -113,7 +119,8 @@ class Recording:
         return Path(file)
 
     def to_vtk(self, file: FilePath) -> Path:
-        """A ParaView time series: a .pvd file beside a folder. Raises IoError."""
+        """A ParaView time series: a .pvd file beside a folder, and one of the forces if they were recorded. Raises
+        IoError."""
         _core.export_vtk(self._reader, file)
         return Path(file)
 

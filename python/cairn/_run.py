@@ -63,16 +63,21 @@ def run(
     steps_per_second: Optional[float] = None,
     settings: Optional[Mapping[str, object]] = None,
     hashes: bool = False,
+    frame_rate: float = _core.simulation_steps_per_second,
+    contacts: bool = False,
+    joints: bool = False,
     after_frame: Optional[Callable[[_core.SceneRun], None]] = None,
 ) -> Result:
     """Runs a scene to its end.
 
     - scene: a Scene, the name of a built-in one ("stacks5", "tower:20") or a scene file.
     - duration: in place of the scene's [s], > 0.
-    - record: file for a recording with 30 frames per simulated second.
+    - record: file for a recording.
     - preset, steps_per_second [1/s], settings: override the scene's, as "threads" or "iterations".
     - hashes: whether every time step's state hash is recorded, so that verify_recording() compares each.
-    - after_frame: called with the run after each simulation step of 1/30 s.
+    - frame_rate: frames of the recording per simulated second, at most one per time step.
+    - contacts, joints: whether contacts with impulses and forces of joints are recorded.
+    - after_frame: called with the run after each frame, recorded or not.
 
     Raises InputError, IoError.
     """
@@ -83,15 +88,21 @@ def run(
     if duration is not None:
         scene_run.set_duration(duration)
     # A duration such as 0.1 s is not exactly three simulation steps.
-    frames = max(math.ceil(scene_run.scene.duration * _core.simulation_steps_per_second - 1e-6), 1)
+    simulation_steps = max(math.ceil(scene_run.scene.duration * _core.simulation_steps_per_second - 1e-6), 1)
+    steps = simulation_steps * scene_run.steps_per_simulation_step
+    options = _core.RecordingOptions(
+        hashes_per_frame=round(chosen.steps_per_second / frame_rate) if hashes else 0,
+        frame_rate=frame_rate,
+        contacts=contacts,
+        joints=joints,
+    )
     writer: Optional[_core.RecordingWriter] = None
     if record is not None:
         # A recording of that name which is still looked at, as where a cell of a notebook runs again, stays readable.
         Path(record).unlink(missing_ok=True)
-        per_frame = scene_run.steps_per_simulation_step if hashes else 0
-        writer = _core.RecordingWriter(record, scene_run.scene, chosen, per_frame)
-        writer.append(_core.capture_frame(scene_run))
-    total, seconds = _simulate(scene_run, frames, writer, hashes, after_frame)
+        writer = _core.RecordingWriter(record, scene_run.scene, chosen, options)
+        writer.append(_core.capture_frame(scene_run, what=options))
+    total, seconds = _simulate(scene_run, steps, writer, options, after_frame)
     if writer is not None:
         writer.close()
     return Result(scene_run, total, seconds, Recording(record) if record is not None else None)
@@ -99,23 +110,28 @@ def run(
 
 def _simulate(
     scene_run: _core.SceneRun,
-    frames: int,
+    steps: int,
     writer: Optional[_core.RecordingWriter],
-    hashes: bool,
+    options: _core.RecordingOptions,
     after_frame: Optional[Callable[[_core.SceneRun], None]],
 ) -> tuple[_core.Statistics, float]:
     total = _core.Statistics()
+    since_frame = _core.Statistics()
+    hashes: list[int] = []
     seconds = 0.0
-    for _ in range(frames):
+    for _ in range(steps):
         begin = time.perf_counter()
-        statistics, step_hashes = scene_run.hashed_simulation_step() if hashes else (scene_run.simulation_step(), ())
+        scene_run.step()
         seconds += time.perf_counter() - begin
-        total = total + statistics
+        since_frame = since_frame + scene_run.world.statistics
+        if options.hashes_per_frame:
+            hashes.append(scene_run.world.state_hash())
+        if not _core.is_frame_due(scene_run, options.frame_rate):
+            continue
         if writer is not None:
-            frame = _core.capture_frame(scene_run, statistics)
-            writer.append(frame.replace(step_hashes=step_hashes) if hashes else frame)
+            frame = _core.capture_frame(scene_run, since_frame, options)
+            writer.append(frame.replace(step_hashes=hashes) if hashes else frame)
+        total, since_frame, hashes = total + since_frame, _core.Statistics(), []
         if after_frame is not None:
             after_frame(scene_run)
-    return total, seconds
-
-
+    return total + since_frame, seconds

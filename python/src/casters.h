@@ -75,6 +75,8 @@ inline constexpr const char* enum_name<TableEnd> = "TableEnd";
 template <>
 inline constexpr const char* enum_name<Baseline> = "Baseline";
 template <>
+inline constexpr const char* enum_name<DriveOf> = "DriveOf";
+template <>
 inline constexpr const char* enum_name<SurfaceSides> = "SurfaceSides";
 template <>
 inline constexpr const char* enum_name<Tracing> = "Tracing";

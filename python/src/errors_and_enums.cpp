@@ -95,6 +95,7 @@ void bindEnums(py::module_& module) {
                          "Along or about which axis of a joint's frame A can move relative to B.");
     bindEnum<Touch>(module, {"never", "always"}, "Whether two bodies may touch.");
     bindEnum<TableEnd>(module, {"hold", "repeat"}, "What a table of motion does after its last time.");
+    bindEnum<DriveOf>(module, {"position", "speed", "force", "torque"}, "What follows a function of time.");
     bindEnum<Baseline>(module, {"none", "at_rest"}, "How an accelerogram is brought to an end.");
     bindEnum<SurfaceSides>(module, {"one", "two"}, "Which sides of a surface touch others.");
     bindEnum<Stage>(

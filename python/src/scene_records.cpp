@@ -74,6 +74,14 @@ void bindSceneBodies(py::module_& module) {
         .field("first", &SceneJoint::first, "Of gears, racks and mimics: index of an earlier one in Scene.joints.")
         .field("second", &SceneJoint::second, "Likewise: the joint that follows it.")
         .finish(3);
+    Record<SceneDrive>(module, "SceneDrive",
+                       "Lets something follow a function of time: start plus the displacement of a law of motion.")
+        .field("what", &SceneDrive::what, "Of the target: position, speed, force or torque.")
+        .field("target", &SceneDrive::target, "Index in Scene.joints or, of forces and torques, in Scene.bodies.")
+        .field("axis", &SceneDrive::axis, "Which free axis of the joint.")
+        .field("start", &SceneDrive::start, "Its value at the beginning; of joints x counts.")
+        .field("law", &SceneDrive::law, "How it changes, in its unit in place of metres; without turns.")
+        .finish(2);
     using S = SceneSpring;
     Record<S>(module, "SceneSpring", "A spring of a scene.")
         .field("a", &S::a, "Index of the body.")
@@ -130,6 +138,7 @@ void bindScene(py::module_& module) {
         .field("bodies", &Scene::bodies, "In the order of their numbers.")
         .field("springs", &Scene::springs, "Between bodies, or a body and the world.")
         .field("joints", &Scene::joints, "Between bodies, or a body and the world.")
+        .field("drives", &Scene::drives, "What follows functions of time.")
         .field("preset", &Scene::preset, "Where the settings begin; None = performance.");
     pairsField(scene, "settings", &Scene::settings, "Names and values of other settings than the preset's.");
     scene.finish(2);

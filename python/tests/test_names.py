@@ -21,6 +21,7 @@ WITHOUT: dict[str, str] = {
     "QueryFilter": "excluding= and groups= of the questions: except is a word of the language",
     "HullData": "for the engine itself",
     "SurfaceData": "for the engine itself",
+    "MotionCurve": "for the engine itself",
     "Mesh.data": "for the engine itself",
     "HeightField.data": "for the engine itself",
     "TriangleCorners": "rows of arrays of numpy",

@@ -59,7 +59,8 @@ def test_every_record_can_be_made_of_what_it_says() -> None:
         values = {"name": "a", "shape": cairn.Sphere(), "material": "oak", "duration": 1, "density": 1, "a": 0, "b": 0,
                   "joint": cairn.JointDescription(), "gravity": [0, 0, 0], "body": 0, "velocity": [0, 0, 0],
                   "impulse": [0, 0, 0], "force": [0, 0, 0], "torque": [0, 0, 0], "time": 0,
-                  "action": cairn.SetGravity([0, 0, 0]), "times": [0, 1]}
+                  "action": cairn.SetGravity([0, 0, 0]), "times": [0, 1], "what": "position",
+                      "target": 0}
         try:
             made = record()
         except TypeError:

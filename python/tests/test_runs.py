@@ -83,6 +83,25 @@ def test_recordings_are_read_as_arrays(tmp_path: Path) -> None:
         cairn.Recording(tmp_path / "none.h5")
 
 
+def test_forces_are_recorded_at_any_rate(tmp_path: Path) -> None:
+    scene = cairn.Scene(
+        name="forces", duration=1, gravity=[0, 0, -10], materials=[cairn.Material("oak", 800)],
+        bodies=[cairn.SceneBody(cairn.HalfSpace([0, 0, 1], 0), "oak", fixed=True),
+                cairn.SceneBody(cairn.Sphere(0.1), "oak", mass=1, position=[0, 0, 0.1]),
+                cairn.SceneBody(cairn.Sphere(0.1), "oak", mass=2, position=[2, 0, 1])],
+        joints=[cairn.SceneJoint(2, None, cairn.JointDescription("ball", cairn.BodyId(), anchor=[2, 0, 1]))],
+        settings={"sleeping": False, "damping": 0.0})
+    recording = cairn.run(scene, record=tmp_path / "run.h5", frame_rate=50, contacts=True, joints=True).recording
+    assert recording is not None and len(recording) == 51 and recording.info.frame_rate == 50
+    last = recording[-1]
+    assert last.contact_a.tolist() == [0] and last.contact_b.tolist() == [1]
+    steps = cairn.settings_for(scene).steps_per_second
+    assert last.contact_impulse[0, 2] * steps == pytest.approx(-10)
+    assert recording.joint_force.shape == (51, 1, 3) and recording.joint_force[-1][0, 2] == pytest.approx(20)
+    with pytest.raises(cairn.InputError):
+        cairn.run(scene, record=tmp_path / "other.h5", frame_rate=1e6)
+
+
 def test_frames_are_written_one_by_one(tmp_path: Path) -> None:
     run = cairn.SceneRun(pyramid())
     with cairn.RecordingWriter(tmp_path / "run.h5", run.scene, run.world.settings) as writer:

@@ -1,15 +1,61 @@
+#include <cmath>
 #include <limits>
+#include <unordered_map>
 
 #include "cairn/recording.h"
 
 namespace cairn {
+namespace {
 
-Frame captureFrame(const SceneRun& run, const Statistics& statistics) {
+const Vec3 nowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+
+void captureContacts(const SceneRun& run, Frame& frame) {
+    const std::vector<BodyId>& ids = run.ids();
+    std::unordered_map<std::uint32_t, std::size_t> index;  // of the scene, by slot
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        if (run.world().contains(ids[i])) index.emplace(ids[i].index, i);
+    }
+    for (const ContactInfo& contact : run.world().contacts()) {
+        const auto a = index.find(contact.a.index);
+        const auto b = index.find(contact.b.index);
+        // Bodies that were added by other means have no number in the recording.
+        if (a == index.end() || b == index.end()) continue;
+        frame.contact_a.push_back(static_cast<std::int64_t>(a->second));
+        frame.contact_b.push_back(static_cast<std::int64_t>(b->second));
+        frame.contact_point.push_back(contact.point);
+        frame.contact_normal.push_back(contact.normal);
+        frame.contact_distance.push_back(contact.distance);
+        frame.contact_impulse.push_back(contact.impulse);
+    }
+}
+
+void captureJoints(const SceneRun& run, Frame& frame) {
+    for (std::size_t i = 0; i < run.scene().joints.size(); ++i) {
+        // The first joints of a world are numbered as they were added.
+        const JointId id{static_cast<std::uint32_t>(i), 0};
+        const bool there = run.world().contains(id);
+        const JointInfo joint = there ? run.world().joint(id) : JointInfo{};
+        frame.joint_point.push_back(there ? joint.anchor_a : nowhere);
+        frame.joint_force.push_back(there ? joint.force : nowhere);
+        frame.joint_torque.push_back(there ? joint.torque : nowhere);
+    }
+}
+
+}  // namespace
+
+bool isFrameDue(const SceneRun& run, double frame_rate) {
+    // With a tolerance of a millionth of a frame: step 8 of 240 ends at 1/30 s, whatever 8/240 is rounded to.
+    const auto frames = [&](double time) { return std::floor(time * frame_rate + 1e-6); };
+    const double step = run.world().settings().timeStep();
+    return frames(run.world().time()) > frames(run.world().time() - step);
+}
+
+Frame captureFrame(const SceneRun& run, const Statistics& statistics, const RecordingOptions& what) {
     const World& world = run.world();
     const std::vector<BodyId>& ids = run.ids();
     Frame frame;
     frame.time = world.time();
-    frame.position.assign(ids.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    frame.position.assign(ids.size(), nowhere);
     frame.orientation.assign(ids.size(), Quat::Identity());
     frame.linear_velocity.assign(ids.size(), Vec3::Zero());
     frame.angular_velocity.assign(ids.size(), Vec3::Zero());
@@ -27,6 +73,8 @@ Frame captureFrame(const SceneRun& run, const Statistics& statistics) {
     frame.statistics = statistics;
     frame.kinetic_energy = world.kineticEnergy();
     frame.potential_energy = world.potentialEnergy();
+    if (what.contacts) captureContacts(run, frame);
+    if (what.joints) captureJoints(run, frame);
     return frame;
 }
 

@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cairn/recording.h"
+#include "record/force_lines.h"
+#include "record/recorded_settings.h"
 #include "record/surface.h"
 #include "record/vtk_file.h"
 
@@ -82,30 +87,59 @@ void createFolder(const std::filesystem::path& folder) {
     if (error) throw IoError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
 }
 
+/// A series of files in a folder, and the file that names them.
+class VtkSeries {
+  public:
+    /// @param folder of the files @param kind that follows its name, for the .pvd file and the files
+    VtkSeries(std::filesystem::path folder, std::string kind) : folder_(std::move(folder)), kind_(std::move(kind)) {}
+
+    template <class Content>
+    void add(double time, const Content& content) {
+        const std::string name = fmt::format("{}{}_{:06}.vtp", folder_.filename().string(), kind_, steps_.size());
+        writeVtp(content, folder_ / name);
+        steps_.push_back({time, folder_.filename().string() + '/' + name});
+    }
+    void close() const {
+        std::filesystem::path file = folder_;
+        file += kind_ + ".pvd";
+        writePvd(steps_, file);
+    }
+
+  private:
+    std::filesystem::path folder_;
+    std::string kind_;
+    std::vector<VtkTimeStep> steps_;
+};
+
 }  // namespace
 
 void exportVtk(const RecordingReader& recording, const std::filesystem::path& file) {
-    const std::vector<DrawnBody> drawn = drawnBodies(recording.info().scene);
+    const RecordingInfo& info = recording.info();
+    const std::vector<DrawnBody> drawn = drawnBodies(info.scene);
     // OUT and OUT.pvd both stand for OUT.pvd beside the folder OUT.
     std::filesystem::path folder = file;
     if (folder.extension() == ".pvd") folder.replace_extension();
-    std::filesystem::path series = folder;
-    series += ".pvd";
     createFolder(folder);
     VtkPolygons polygons;
-    std::vector<VtkTimeStep> steps;
-    for (std::size_t f = 0; f < recording.info().frames; ++f) {
+    VtkSeries surfaces(folder, "");
+    VtkLines lines;
+    VtkSeries forces(folder, "_forces");
+    const bool has_forces = info.contacts || info.joints;
+    const ForceLines force_lines(info.scene, settingsOf(info).steps_per_second);
+    for (std::size_t f = 0; f < info.frames; ++f) {
         const Frame frame = recording.frame(f);
         polygons.clear();
         for (std::size_t body = 0; body < drawn.size(); ++body) {
             // Removed bodies have no position.
             if (frame.position[body].allFinite()) addBody(polygons, drawn[body], frame, body);
         }
-        const std::string name = fmt::format("{}_{:06}.vtp", folder.filename().string(), f);
-        writeVtp(polygons, folder / name);
-        steps.push_back({frame.time, folder.filename().string() + '/' + name});
+        surfaces.add(frame.time, polygons);
+        if (!has_forces) continue;
+        force_lines.of(frame, lines);
+        forces.add(frame.time, lines);
     }
-    writePvd(steps, series);
+    surfaces.close();
+    if (has_forces) forces.close();
 }
 
 }  // namespace cairn

@@ -19,6 +19,7 @@ inline constexpr std::int64_t format_version = 1;
 inline constexpr const char* version_attribute = "cairn_version";
 inline constexpr const char* machine_attribute = "machine";
 inline constexpr const char* rate_attribute = "frames_per_second";
+inline constexpr double least_frame_rate = 1e-3;  ///< [1/s]
 
 inline constexpr const char* scene = "scene";        ///< the scene file's text
 inline constexpr const char* settings = "settings";  ///< a group with one attribute per field
@@ -34,6 +35,22 @@ inline constexpr const char* asleep = "frames/asleep";
 inline constexpr const char* kinetic_energy = "frames/kinetic_energy";
 inline constexpr const char* potential_energy = "frames/potential_energy";
 inline constexpr const char* step_hashes = "frames/state_hashes";  ///< only if it was asked for
+
+// Only if they were asked for: rows of all frames, one after the other, and where each frame's rows end.
+inline constexpr const char* contacts = "contacts";  ///< a group
+inline constexpr const char* contacts_end = "contacts/end";
+inline constexpr const char* contact_a = "contacts/a";
+inline constexpr const char* contact_b = "contacts/b";
+inline constexpr const char* contact_point = "contacts/point";
+inline constexpr const char* contact_normal = "contacts/normal";
+inline constexpr const char* contact_distance = "contacts/distance";
+inline constexpr const char* contact_impulse = "contacts/impulse";
+
+inline constexpr const char* joints = "joints";  ///< a group; only if it was asked for
+inline constexpr const char* joint_point = "joints/point";
+inline constexpr const char* joint_force = "joints/force";
+inline constexpr const char* joint_torque = "joints/torque";
+
 inline constexpr const char* statistics = "statistics";
 inline constexpr const char* stage_ms = "statistics/stage_ms";
 inline constexpr const char* stages_attribute =

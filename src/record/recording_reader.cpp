@@ -7,6 +7,7 @@
 #include "cairn/recording.h"
 #include "record/attributes.h"
 #include "record/file_check.h"
+#include "record/force_series.h"
 #include "record/frame_series.h"
 #include "record/recorded_settings.h"
 
@@ -72,11 +73,13 @@ struct RecordingReader::Impl {
         info.machine = textAttribute(file, path, layout::machine_attribute);
         info.settings = hdf5::readAttributes(
             hdf5::Group(H5Gopen2(file.get(), layout::settings, H5P_DEFAULT), path, "settings"), path);
+        info.frame_rate = frameRate();
         series.emplace(file, path, info.bodies);
         openHashes();
         if (H5Lexists(file.get(), layout::diagnostics, H5P_DEFAULT) > 0) {
             diagnostics = hdf5::diagnosticsSeries<hdf5::SeriesReader>(file, path);
         }
+        openForces();
         info.frames = countFrames();
         if (!state.closed) requireAllInFile();
         quaternions.resize(info.bodies);
@@ -87,15 +90,60 @@ struct RecordingReader::Impl {
         series.reset();
         diagnostics.clear();
         hashes.reset();
+        contacts.reset();
+        joints.reset();
         file.close();
+    }
+
+    double frameRate() const {
+        const auto value = hdf5::readAttribute(file.get(), path, layout::rate_attribute);
+        const auto* rate = value ? std::get_if<double>(&*value) : nullptr;
+        if (rate != nullptr && *rate >= layout::least_frame_rate && std::isfinite(*rate)) return *rate;
+        throw IoError(fmt::format("{}: is damaged: it has no frames_per_second in range", path.string()));
+    }
+
+    void openForces() {
+        if (H5Lexists(file.get(), layout::contacts, H5P_DEFAULT) > 0) contacts.emplace(file, path);
+        if (H5Lexists(file.get(), layout::joints, H5P_DEFAULT) > 0)
+            joints.emplace(file, path, info.scene.joints.size());
+        info.contacts = contacts.has_value();
+        info.joints = joints.has_value();
+    }
+
+    /// Of all frames up to one. @throws IoError if the file says nonsense
+    hsize_t contactsUpTo(hsize_t frame) const {
+        std::int64_t end = 0;
+        contacts->end.read(frame, &end);
+        if (end < 0) throw IoError(fmt::format("{}: is damaged: {} contacts", path.string(), end));
+        return static_cast<hsize_t>(end);
+    }
+
+    void readForces(hsize_t index, Frame& frame) const {
+        if (contacts) {
+            const hsize_t begin = index == 0 ? 0 : contactsUpTo(index - 1);
+            const hsize_t end = contactsUpTo(index);
+            if (end < begin || end > contacts->a.frames()) {
+                throw IoError(
+                    fmt::format("{}: is damaged: the contacts of frame {} are not there", path.string(), index));
+            }
+            contacts->forEachOfRows(frame, [&](const hdf5::SeriesReader& rows, auto& values) {
+                values.resize(end - begin);
+                rows.readRows(begin, end - begin, values.data());
+            });
+        }
+        if (joints) {
+            joints->forEach(frame, [&](const hdf5::SeriesReader& rows, auto& values) {
+                values.resize(info.scene.joints.size());
+                rows.read(index, values.data());
+            });
+        }
     }
 
     /// Their number is that of the time steps in a frame.
     void openHashes() {
         if (H5Lexists(file.get(), layout::step_hashes, H5P_DEFAULT) <= 0) return;
         const Settings settings = settingsOf(info);
-        const auto per_frame =
-            static_cast<hsize_t>(std::lround(settings.steps_per_second / simulation_steps_per_second));
+        const auto per_frame = static_cast<hsize_t>(std::lround(settings.steps_per_second / info.frame_rate));
         hashes.emplace(file, path, hdf5::stepHashes(per_frame));
         info.hashes_per_frame = per_frame;
     }
@@ -109,6 +157,9 @@ struct RecordingReader::Impl {
         series->forEachButTime([&](const hdf5::SeriesReader& s) { frames = std::min(frames, s.frames()); });
         for (const hdf5::SeriesReader& s : diagnostics) frames = std::min(frames, s.frames());
         if (hashes) frames = std::min(frames, hashes->frames());
+        if (contacts) frames = std::min(frames, contacts->end.frames());
+        if (joints)
+            frames = std::min({frames, joints->point.frames(), joints->force.frames(), joints->torque.frames()});
         return frames;
     }
 
@@ -121,6 +172,15 @@ struct RecordingReader::Impl {
         visit(series->time);
         series->forEachButTime(visit);
         for (const hdf5::SeriesReader& s : diagnostics) visit(s);
+        Frame none;
+        if (joints) joints->forEach(none, [&](const hdf5::SeriesReader& s, auto&) { visit(s); });
+        if (contacts && info.frames > 0) {
+            visit(contacts->end);
+            const hsize_t rows = contactsUpTo(info.frames - 1);
+            contacts->forEachOfRows(none, [&](const hdf5::SeriesReader& s, auto&) {
+                for (hsize_t row = 0; row < std::min(rows, s.frames()); ++row) end = std::max(end, s.endInFile(row));
+            });
+        }
         requireLength(path, end);
     }
 
@@ -130,6 +190,8 @@ struct RecordingReader::Impl {
     std::optional<hdf5::FrameSeries<hdf5::SeriesReader>> series;
     std::vector<hdf5::SeriesReader> diagnostics;  ///< empty if it was recorded without
     std::optional<hdf5::SeriesReader> hashes;
+    std::optional<hdf5::ContactSeries<hdf5::SeriesReader>> contacts;
+    std::optional<hdf5::JointSeries<hdf5::SeriesReader>> joints;
     mutable std::vector<std::array<double, 4>> quaternions;  ///< w, x, y, z
 };
 
@@ -187,6 +249,7 @@ Frame RecordingReader::frame(std::size_t index) const {
         const std::array<double, 4>& q = impl.quaternions[i];
         frame.orientation[i] = Quat(q[0], q[1], q[2], q[3]);
     }
+    impl.readForces(index, frame);
     return frame;
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <numeric>
 #include <optional>
 
@@ -10,6 +12,7 @@
 #include "cairn/version.h"
 #include "record/attributes.h"
 #include "record/file_driver.h"
+#include "record/force_series.h"
 #include "record/frame_series.h"
 #include "record/machine.h"
 
@@ -38,12 +41,12 @@ std::string stageNames() {
 }
 
 void writeMetadata(const hdf5::File& file, const std::filesystem::path& path, const Scene& scene,
-                   const Settings& settings) {
+                   const Settings& settings, double frame_rate) {
     hdf5::writeAttribute(file.get(), path, layout::format_attribute, std::string(layout::format_name));
     hdf5::writeAttribute(file.get(), path, layout::format_version_attribute, layout::format_version);
     hdf5::writeAttribute(file.get(), path, layout::version_attribute, std::string(version));
     hdf5::writeAttribute(file.get(), path, layout::machine_attribute, describeMachine());
-    hdf5::writeAttribute(file.get(), path, layout::rate_attribute, simulation_steps_per_second);
+    hdf5::writeAttribute(file.get(), path, layout::rate_attribute, frame_rate);
     hdf5::writeText(file, path, layout::scene, formatScene(scene));
     const hdf5::Group fields = hdf5::createGroup(file, path, layout::settings);
     for (const SettingField& field : settingFields()) {
@@ -61,24 +64,61 @@ void refuseWrongSize(std::size_t size, std::size_t bodies, const char* what) {
     }
 }
 
+/// What belongs to contacts or joints must have one entry of each kind for each.
+void refuseUneven(std::initializer_list<std::size_t> sizes, std::size_t expected, const char* what) {
+    for (const std::size_t size : sizes) {
+        if (size == expected) continue;
+        throw InputError(
+            fmt::format("the frame has {} and {} entries of its {}; it needs as many of each kind, as "
+                        "captureFrame() takes them with the options of the recording",
+                        expected, size, what));
+    }
+}
+
+void validate(const RecordingOptions& options, const Settings& settings) {
+    const double steps = settings.steps_per_second;
+    const double rate = options.frame_rate;
+    if (!(rate >= layout::least_frame_rate && rate <= steps * (1 + 1e-9))) {
+        throw InputError(
+            fmt::format("the frame rate is {}; it must be at least {} and at most the {} time steps per second", rate,
+                        layout::least_frame_rate, steps));
+    }
+    if (options.hashes_per_frame == 0) return;
+    if (std::abs(static_cast<double>(options.hashes_per_frame) * rate - steps) > 1e-9 * steps) {
+        throw InputError(
+            fmt::format("the frame rate is {}; with hashes every frame needs the same whole number of the {} "
+                        "time steps per second, so take a rate that divides them",
+                        rate, steps));
+    }
+}
+
 }  // namespace
 
 struct RecordingWriter::Impl {
     Impl(const std::filesystem::path& file_path, const Scene& scene, const Settings& settings,
-         std::size_t hashes_per_frame)
+         const RecordingOptions& options)
         : path(file_path),
           bodies(scene.bodies.size()),
-          hash_row(hashes_per_frame),
+          joint_count(options.joints ? scene.joints.size() : 0),
+          hash_row(options.hashes_per_frame),
           driver(path),
           file(createFile(path, driver, writes)) {
         requireWritten(file ? "cannot be written" : "cannot be created");
-        writeMetadata(file, path, scene, settings);
+        writeMetadata(file, path, scene, settings, options.frame_rate);
         series.emplace(file, path, bodies);
         if (settings.diagnostics.diagnostics) {
             hdf5::createGroup(file, path, layout::diagnostics);
             diagnostics = hdf5::diagnosticsSeries<hdf5::SeriesWriter>(file, path);
         }
         if (!hash_row.empty()) hashes.emplace(file, path, hdf5::stepHashes(hash_row.size()));
+        if (options.contacts) {
+            hdf5::createGroup(file, path, layout::contacts);
+            contacts.emplace(file, path);
+        }
+        if (options.joints) {
+            hdf5::createGroup(file, path, layout::joints);
+            joints.emplace(file, path, scene.joints.size());
+        }
         checked(H5Fstart_swmr_write(file.get()), path, "cannot be made readable while it is written");
         requireWritten("cannot be written");
         quaternions.resize(bodies);
@@ -86,10 +126,32 @@ struct RecordingWriter::Impl {
 
     ~Impl() {
         const hdf5::QuietErrors quiet;
+        closeSeries();
+        file.close();
+    }
+
+    void closeSeries() {
         series.reset();
         diagnostics.clear();
         hashes.reset();
-        file.close();
+        contacts.reset();
+        joints.reset();
+    }
+
+    void writeForces(const Frame& frame) {
+        if (contacts) {
+            const hsize_t count = frame.contact_a.size();
+            contacts->forEachOfRows(frame, [&](hdf5::SeriesWriter& rows, const auto& values) {
+                rows.appendRows(contact_rows, count, values.data());
+            });
+            contact_rows += count;
+            const auto end = static_cast<std::int64_t>(contact_rows);
+            contacts->end.append(frames, &end);
+        }
+        if (joints) {
+            joints->forEach(frame,
+                            [&](hdf5::SeriesWriter& rows, const auto& values) { rows.append(frames, values.data()); });
+        }
     }
 
     void write(const Frame& frame) {
@@ -120,6 +182,7 @@ struct RecordingWriter::Impl {
             std::copy(frame.step_hashes.begin(), frame.step_hashes.end(), hash_row.begin());
             hashes->append(frames, hash_row.data());
         }
+        writeForces(frame);
         checked(H5Fflush(file.get(), H5F_SCOPE_LOCAL), path, "cannot be written");
         series->time.append(frames, &frame.time);
         checked(H5Fflush(file.get(), H5F_SCOPE_LOCAL), path, "cannot be written");
@@ -134,6 +197,7 @@ struct RecordingWriter::Impl {
 
     std::filesystem::path path;
     std::size_t bodies;
+    std::size_t joint_count;              ///< recorded
     std::vector<std::uint64_t> hash_row;  ///< [hashes per frame]
     hdf5::WriteState writes;
     hdf5::FileDriver driver;
@@ -141,16 +205,20 @@ struct RecordingWriter::Impl {
     std::optional<hdf5::FrameSeries<hdf5::SeriesWriter>> series;
     std::vector<hdf5::SeriesWriter> diagnostics;  ///< empty without the setting
     std::optional<hdf5::SeriesWriter> hashes;
+    std::optional<hdf5::ContactSeries<hdf5::SeriesWriter>> contacts;
+    std::optional<hdf5::JointSeries<hdf5::SeriesWriter>> joints;
+    hsize_t contact_rows = 0;                        ///< of all frames so far
     std::vector<std::array<double, 4>> quaternions;  ///< w, x, y, z
     hsize_t frames = 0;
     bool failed = false;
 };
 
 RecordingWriter::RecordingWriter(const std::filesystem::path& file, const Scene& scene, const Settings& settings,
-                                 std::size_t hashes_per_frame) {
+                                 const RecordingOptions& options) {
+    validate(options, settings);
     const hdf5::QuietErrors quiet;
     // cppcheck-suppress useInitializationList ; the errors must be quiet before
-    impl_ = std::make_unique<Impl>(file, scene, settings, hashes_per_frame);
+    impl_ = std::make_unique<Impl>(file, scene, settings, options);
 }
 
 RecordingWriter::~RecordingWriter() = default;
@@ -163,6 +231,12 @@ void RecordingWriter::append(const Frame& frame) {
     refuseWrongSize(frame.linear_velocity.size(), impl.bodies, "linear_velocity");
     refuseWrongSize(frame.angular_velocity.size(), impl.bodies, "angular_velocity");
     refuseWrongSize(frame.asleep.size(), impl.bodies, "asleep");
+    const std::size_t contacts = impl.contacts ? frame.contact_a.size() : 0;
+    refuseUneven({frame.contact_a.size(), frame.contact_b.size(), frame.contact_point.size(),
+                  frame.contact_normal.size(), frame.contact_distance.size(), frame.contact_impulse.size()},
+                 contacts, "contacts");
+    refuseUneven({frame.joint_point.size(), frame.joint_force.size(), frame.joint_torque.size()}, impl.joint_count,
+                 "joints");
     if (!frame.step_hashes.empty() && frame.step_hashes.size() != impl.hash_row.size()) {
         throw InputError(fmt::format("the frame has {} step_hashes, but the recording was begun for {}",
                                      frame.step_hashes.size(), impl.hash_row.size()));
@@ -181,9 +255,7 @@ void RecordingWriter::append(const Frame& frame) {
 void RecordingWriter::close() {
     Impl& impl = *impl_;
     const hdf5::QuietErrors quiet;
-    impl.series.reset();
-    impl.diagnostics.clear();
-    impl.hashes.reset();
+    impl.closeSeries();
     checked(impl.file.close(), impl.path, "cannot be closed");
     if (!impl.failed) impl.requireWritten("cannot be written");
 }

@@ -13,6 +13,7 @@ namespace cairn::hdf5 {
 namespace {
 
 constexpr hsize_t frames_per_plain_chunk = 128;
+constexpr hsize_t rows_per_chunk = 4096;
 /// A compromise: the higher levels take several times as long for a few per cent.
 constexpr unsigned deflate_level = 2;
 
@@ -50,19 +51,30 @@ DataSpace makeSpace(const std::vector<hsize_t>& extents, const std::vector<hsize
                      "a data space cannot be made");
 }
 
-/// The part of a series that holds one frame.
-DataSpace selectFrame(hsize_t frames, hsize_t frame, const SeriesShape& shape, const std::filesystem::path& path) {
-    const std::vector<hsize_t> extents = prepend(frames, shape.row);
+/// The part of a series that holds some rows. @param rows in all
+DataSpace selectRows(hsize_t rows, hsize_t first, const std::vector<hsize_t>& count, const SeriesShape& shape,
+                     const std::filesystem::path& path) {
+    const std::vector<hsize_t> extents = prepend(rows, shape.row);
     DataSpace space = makeSpace(extents, extents, path);
     std::vector<hsize_t> start(extents.size(), 0);
-    start[0] = frame;
-    const std::vector<hsize_t> count = prepend(1, shape.row);
+    start[0] = first;
     // A row without bodies has nothing to select.
     const bool empty = std::find(count.begin(), count.end(), 0U) != count.end();
     checked(empty ? H5Sselect_none(space.get())
                   : H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
             path, shape.name);
     return space;
+}
+
+hsize_t rowsPerChunk(Storage storage) {
+    switch (storage) {
+        case Storage::plain:
+            return frames_per_plain_chunk;
+        case Storage::rows:
+            return rows_per_chunk;
+        default:
+            return 1;
+    }
 }
 
 }  // namespace
@@ -74,7 +86,7 @@ SeriesWriter::SeriesWriter(const File& file, const std::filesystem::path& path, 
     // HDF5 wants chunks of at least one element that fit into the limits, also for a scene without bodies.
     for (hsize_t& limit : limits) limit = std::max<hsize_t>(limit, 1);
     std::vector<hsize_t> chunk = limits;
-    chunk[0] = shape.storage == Storage::plain ? frames_per_plain_chunk : 1;
+    chunk[0] = rowsPerChunk(shape.storage);
     limits[0] = H5S_UNLIMITED;
 
     const Properties properties(H5Pcreate(H5P_DATASET_CREATE), path, shape.name);
@@ -93,16 +105,16 @@ SeriesWriter::SeriesWriter(const File& file, const std::filesystem::path& path, 
                               properties.get(), H5P_DEFAULT),
                    path, shape.name);
     writeAttribute(set_.get(), path, "unit", std::string(shape.unit));
-    const std::vector<hsize_t> row = prepend(1, shape.row);
-    memory_ = makeSpace(row, row, path);
 }
 
-void SeriesWriter::append(hsize_t frame, const void* values) {
-    const std::vector<hsize_t> extents = prepend(frame + 1, shape_.row);
+void SeriesWriter::appendRows(hsize_t first, hsize_t count, const void* values) {
+    const std::vector<hsize_t> extents = prepend(first + count, shape_.row);
     checked(H5Dset_extent(set_.get(), extents.data()), *path_, shape_.name);
-    const DataSpace target = selectFrame(frame + 1, frame, shape_, *path_);
+    const std::vector<hsize_t> rows = prepend(count, shape_.row);
+    const DataSpace target = selectRows(first + count, first, rows, shape_, *path_);
     if (H5Sget_select_npoints(target.get()) == 0) return;
-    checked(H5Dwrite(set_.get(), memoryType(shape_.element), memory_.get(), target.get(), H5P_DEFAULT, values), *path_,
+    const DataSpace memory = makeSpace(rows, rows, *path_);
+    checked(H5Dwrite(set_.get(), memoryType(shape_.element), memory.get(), target.get(), H5P_DEFAULT, values), *path_,
             "cannot write");
 }
 
@@ -126,15 +138,19 @@ SeriesReader::SeriesReader(const File& file, const std::filesystem::path& path, 
             fmt::format("{}: the data set '{}' has not the shape that the scene asks for", path.string(), shape.name));
     }
     frames_ = extents[0];
-    const std::vector<hsize_t> row = prepend(1, shape.row);
-    memory_ = makeSpace(row, row, path);
 }
 
-void SeriesReader::read(hsize_t frame, void* values) const {
-    const DataSpace source = selectFrame(frames_, frame, shape_, *path_);
+void SeriesReader::readRows(hsize_t first, hsize_t count, void* values) const {
+    if (first + count > frames_ || first + count < first) {
+        throw IoError(fmt::format("{}: the data set '{}' has {} rows, fewer than the recording says", path_->string(),
+                                  shape_.name, frames_));
+    }
+    const std::vector<hsize_t> rows = prepend(count, shape_.row);
+    const DataSpace source = selectRows(frames_, first, rows, shape_, *path_);
     if (H5Sget_select_npoints(source.get()) == 0) return;
-    checked(H5Dread(set_.get(), memoryType(shape_.element), memory_.get(), source.get(), H5P_DEFAULT, values), *path_,
-            fmt::format("'{}' of frame {} cannot be read", shape_.name, frame));
+    const DataSpace memory = makeSpace(rows, rows, *path_);
+    checked(H5Dread(set_.get(), memoryType(shape_.element), memory.get(), source.get(), H5P_DEFAULT, values), *path_,
+            fmt::format("'{}' of frame {} cannot be read", shape_.name, first));
 }
 
 void SeriesReader::readAll(void* values) const {

@@ -10,8 +10,9 @@ namespace cairn::hdf5 {
 
 enum class Element { real, integer, flag };  ///< double, std::int64_t, std::uint8_t
 enum class Storage {
-    plain,      ///< numbers of a frame: chunks of many frames, rewritten in place
-    compressed  ///< one entry per body: a compressed chunk per frame, written once
+    plain,       ///< numbers of a frame: chunks of many frames, rewritten in place
+    compressed,  ///< one entry per body: a compressed chunk per frame, written once
+    rows         ///< any number of rows per frame, one after the other: chunks of many rows
 };
 
 /// How a series is stored.
@@ -29,7 +30,9 @@ class SeriesWriter {
     /// @param path of the file, for messages; must outlive the writer @throws IoError
     SeriesWriter(const File& file, const std::filesystem::path& path, const SeriesShape& shape);
     /// Writes a row. @param frame its index, one behind the last @param values as many as a row has @throws IoError
-    void append(hsize_t frame, const void* values);
+    void append(hsize_t frame, const void* values) { appendRows(frame, 1, values); }
+    /// Writes rows. @param first index of the first, one behind the last @throws IoError
+    void appendRows(hsize_t first, hsize_t count, const void* values);
     /// Hands everything to the operating system. @throws IoError
     void flush();
     void close() { set_.close(); }
@@ -38,7 +41,6 @@ class SeriesWriter {
     const std::filesystem::path* path_;
     SeriesShape shape_;
     DataSet set_;
-    DataSpace memory_;
 };
 
 /// The same, read.
@@ -48,7 +50,9 @@ class SeriesReader {
     SeriesReader(const File& file, const std::filesystem::path& path, const SeriesShape& shape);
     hsize_t frames() const { return frames_; }
     /// @throws IoError if it cannot be read
-    void read(hsize_t frame, void* values) const;
+    void read(hsize_t frame, void* values) const { readRows(frame, 1, values); }
+    /// Reads rows. @throws IoError if they are not there or cannot be read
+    void readRows(hsize_t first, hsize_t count, void* values) const;
     /// Reads all frames of a series of numbers. @param values frames() of them @throws IoError
     void readAll(void* values) const;
     /// Where the frame's values end in the file [bytes]; 0 if they were never written. @throws IoError
@@ -58,7 +62,6 @@ class SeriesReader {
     const std::filesystem::path* path_;
     SeriesShape shape_;
     DataSet set_;
-    DataSpace memory_;
     hsize_t frames_ = 0;
     std::vector<hsize_t> chunk_;
 };

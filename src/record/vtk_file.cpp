@@ -94,26 +94,59 @@ void VtkPolygons::clear() {
     speed.clear();
 }
 
-void writeVtp(const VtkPolygons& polygons, const std::filesystem::path& file) {
-    Arrays arrays;
-    std::string head = fmt::format(
+namespace {
+
+/// What stands before the arrays of a file.
+std::string beginning(std::size_t points, std::size_t lines, std::size_t polygons) {
+    return fmt::format(
         "<?xml version=\"1.0\"?>\n"
         "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\">\n<PolyData>\n"
-        "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+        "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
         "NumberOfPolys=\"{}\">\n",
-        byte_order, polygons.points.size() / 3, polygons.ends.size());
+        byte_order, points, lines, polygons);
+}
+
+void writeFile(const std::string& head, const Arrays& arrays, const std::filesystem::path& file) {
+    OutputFile out(file);
+    out.write(head + "</CellData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_");
+    arrays.write(out);
+    out.write("\n</AppendedData>\n</VTKFile>\n");
+    out.close();
+}
+
+}  // namespace
+
+void VtkLines::clear() {
+    *this = {};
+}
+
+void writeVtp(const VtkPolygons& polygons, const std::filesystem::path& file) {
+    Arrays arrays;
+    std::string head = beginning(polygons.points.size() / 3, 0, polygons.ends.size());
     head += "<Points>\n" + arrays.describe("Points", polygons.points, 3) + "</Points>\n";
     head += "<Polys>\n" + arrays.describe("connectivity", polygons.corners);
     head += arrays.describe("offsets", polygons.ends) + "</Polys>\n";
     head += "<CellData Scalars=\"speed\">\n" + arrays.describe("body", polygons.body);
     head += arrays.describe("material", polygons.material) + arrays.describe("asleep", polygons.asleep);
     head += arrays.describe("fixed", polygons.fixed) + arrays.describe("speed", polygons.speed);
-    head += "</CellData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
-    OutputFile out(file);
-    out.write(head);
-    arrays.write(out);
-    out.write("\n</AppendedData>\n</VTKFile>\n");
-    out.close();
+    writeFile(head, arrays, file);
+}
+
+void writeVtp(const VtkLines& lines, const std::filesystem::path& file) {
+    std::vector<std::int32_t> ends(lines.force.size());
+    std::vector<std::int32_t> corners(2 * lines.force.size());
+    for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = static_cast<std::int32_t>(2 * i + 2);
+    for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::int32_t>(i);
+    Arrays arrays;
+    std::string head = beginning(corners.size(), ends.size(), 0);
+    head += "<Points>\n" + arrays.describe("Points", lines.points, 3) + "</Points>\n";
+    head += "<Lines>\n" + arrays.describe("connectivity", corners);
+    head += arrays.describe("offsets", ends) + "</Lines>\n";
+    head += "<CellData Scalars=\"force\" Vectors=\"vector\">\n" + arrays.describe("force", lines.force);
+    head += arrays.describe("normal_force", lines.normal_force) + arrays.describe("vector", lines.vector, 3);
+    head += arrays.describe("body", lines.body) + arrays.describe("other", lines.other);
+    head += arrays.describe("joint", lines.joint);
+    writeFile(head, arrays, file);
 }
 
 void writePvd(const std::vector<VtkTimeStep>& steps, const std::filesystem::path& file) {

@@ -86,6 +86,22 @@ constexpr auto known_scenes = std::to_array<Entry>({
      1,
      {{{"N, the number of bodies", 1, 100000, 0}}},
      [](std::string name, Numbers n) { return heapScene(std::move(name), n[0]); }},
+    {{"rockfall", "rubble comes down a mountain side into a valley", "rockfall"},
+     0,
+     {},
+     [](std::string name, Numbers) { return rockfallScene(std::move(name)); }},
+    {{"shake_table", "an earthquake shakes a façade of stones", "shake_table"},
+     0,
+     {},
+     [](std::string name, Numbers) { return shakeTableScene(std::move(name)); }},
+    {{"excavator", "an excavator's arm digs in stones", "excavator"},
+     0,
+     {},
+     [](std::string name, Numbers) { return excavatorScene(std::move(name)); }},
+    {{"drum", "a turning drum feeds a conveyor with stones", "drum"},
+     0,
+     {},
+     [](std::string name, Numbers) { return drumScene(std::move(name)); }},
 });
 
 /// The parts of a name between its colons.

@@ -11,10 +11,6 @@ namespace {
 /// Contacts of stacks that are meant to stand: nothing bounces, little slides.
 constexpr PairProperties standing_pair{.restitution = 0, .static_friction = 0.5, .kinetic_friction = 0.5};
 
-Quat aboutAxis(const Vec3& axis, double angle) {
-    return Quat(Eigen::AngleAxisd(angle, axis));
-}
-
 /// The seesaw of the catapults. Its plank rests with the loaded end (towards −x) on the ground.
 struct Seesaw {
     static constexpr double length = 2;
@@ -72,19 +68,6 @@ void addLoad(Scene& scene, const Seesaw& seesaw, double size, double gap, std::i
             }
         }
         height += size;
-    }
-}
-
-/// A rotation with every direction equally likely, without functions that differ between machines.
-Quat randomOrientation(SplitMix64& random) {
-    for (;;) {
-        const double w = random.symmetric();
-        const Vec3 v = random.symmetricVector();
-        const double length_squared = w * w + v.squaredNorm();
-        if (length_squared > 0.01 && length_squared <= 1) {
-            const Vec3 unit = v / std::sqrt(length_squared);
-            return tidy(Quat(w / std::sqrt(length_squared), unit.x(), unit.y(), unit.z()));
-        }
     }
 }
 

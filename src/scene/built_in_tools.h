@@ -53,6 +53,22 @@ SceneBody fixedPlane(const Vec3& normal, double offset);
 SceneBody fixedBox(const Vec3& size, const Vec3& position);
 /// A dynamic body; its position is rounded by tidy().
 SceneBody dynamicBody(const Shape& shape, std::string material, const Vec3& position);
+Quat aboutAxis(const Vec3& axis, double angle);
+/// A rotation with every direction equally likely, without functions that differ between machines.
+Quat randomOrientation(SplitMix64& random);
+/// Convex stones of irregular form. @param radius of the ball that holds each [m]
+std::vector<Shape> stoneShapes(SplitMix64& random, int count, double radius);
+
+/// A lattice of stones that fall on what is below them.
+struct StoneBed {
+    Pose pose;             ///< of the middle of the lowest layer
+    int columns = 1;       ///< along x of the pose
+    int rows = 1;          ///< along y
+    int layers = 1;        ///< along z
+    double radius = 0.1;   ///< of the ball that holds a stone [m]
+    std::string material;  ///< of one of the scene's
+};
+void addStones(Scene& scene, const StoneBed& bed, SplitMix64& random);
 /// A pyramid-like wall in the y–z plane at x: `rows` boxes in the lowest row, one fewer in each above, half a spacing
 /// apart. @param size edge length [m]
 void addWall(Scene& scene, int rows, double x, double size);
@@ -69,5 +85,11 @@ Scene swingingCradleScene(std::string name, int balls, int moving);
 Scene towerScene(std::string name, int boxes);
 Scene wallScene(std::string name, int rows);
 Scene heapScene(std::string name, int bodies);
+
+// Terrain, moved ground and machines.
+Scene rockfallScene(std::string name);
+Scene shakeTableScene(std::string name);
+Scene excavatorScene(std::string name);
+Scene drumScene(std::string name);
 
 }  // namespace cairn

@@ -40,10 +40,48 @@ std::string plainReason(std::string reason) {
     return shortened(std::move(reason), 200);
 }
 
-/// Builds the document, refusing what JSON allows but a scene must not have: keys given twice and endless nesting.
-class DocumentBuilder : public nlohmann::json_sax<Json> {
+/// Reads JSON for its syntax alone.
+class SyntaxReader : public nlohmann::json_sax<Json> {
   public:
-    DocumentBuilder(std::string_view text, std::string_view source) : text_(text), source_(source) {}
+    /// @param offset of what is parsed in the text
+    SyntaxReader(std::string_view text, std::string_view source, std::size_t offset)
+        : text_(text), source_(source), offset_(offset) {}
+
+    bool null() override { return true; }
+    bool boolean(bool /*value*/) override { return true; }
+    bool number_integer(number_integer_t /*value*/) override { return true; }
+    bool number_unsigned(number_unsigned_t /*value*/) override { return true; }
+    bool number_float(number_float_t /*value*/, const string_t& /*text*/) override { return true; }
+    bool string(string_t& /*value*/) override { return true; }
+    bool binary(binary_t& /*value*/) override { return false; }
+    bool start_object(std::size_t /*elements*/) override { return true; }
+    bool start_array(std::size_t /*elements*/) override { return true; }
+    bool end_object() override { return true; }
+    bool end_array() override { return true; }
+    bool key(string_t& /*name*/) override { return true; }
+
+    bool parse_error(std::size_t position, const std::string& /*token*/, const Json::exception& error) override {
+        const std::size_t offset = offset_ + (position > 0 ? position - 1 : 0);
+        const auto [line, column] = lineAndColumn(text_, offset);
+        const bool not_finite = offset < text_.size() && (text_[offset] == 'N' || text_[offset] == 'I');
+        throw SyntaxError(fmt::format("{}:{}:{}: {}{}", source_, line, column, plainReason(error.what()),
+                                      not_finite ? "; numbers must be finite, NaN and Infinity are not JSON" : ""));
+    }
+
+  protected:
+    std::string_view source() const { return source_; }
+
+  private:
+    std::string_view text_;
+    std::string_view source_;
+    std::size_t offset_;
+};
+
+/// Builds a value, refusing what JSON allows but a scene must not have: keys given twice and endless nesting.
+class DocumentBuilder : public SyntaxReader {
+  public:
+    DocumentBuilder(std::string_view text, std::string_view source, const ValuePlace& place)
+        : SyntaxReader(text, source, place.range.begin), place_(place) {}
 
     Json take() { return std::move(root_); }
 
@@ -63,18 +101,10 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
         Level& level = levels_.back();
         level.key = name;
         if (!level.keys.insert(name).second) {
-            throw InputError(fmt::format("{}: {} is given twice; every key may stand once in an object", source_,
+            throw InputError(fmt::format("{}: {} is given twice; every key may stand once in an object", source(),
                                          shortened(path(), shown_limit)));
         }
         return true;
-    }
-
-    bool parse_error(std::size_t position, const std::string& /*token*/, const Json::exception& error) override {
-        const std::size_t offset = position > 0 ? position - 1 : 0;
-        const auto [line, column] = lineAndColumn(text_, offset);
-        const bool not_finite = offset < text_.size() && (text_[offset] == 'N' || text_[offset] == 'I');
-        throw InputError(fmt::format("{}:{}:{}: {}{}", source_, line, column, plainReason(error.what()),
-                                     not_finite ? "; numbers must be finite, NaN and Infinity are not JSON" : ""));
     }
 
   private:
@@ -106,8 +136,8 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
 
     bool open(Json&& container) {
         Json* const opened = append(std::move(container));
-        if (levels_.size() >= json_depth_limit) {
-            throw InputError(fmt::format("{}: {} is nested more than {} levels deep; no scene needs that", source_,
+        if (place_.depth + levels_.size() >= json_depth_limit) {
+            throw InputError(fmt::format("{}: {} is nested more than {} levels deep; no scene needs that", source(),
                                          shortened(path(), shown_limit), json_depth_limit));
         }
         levels_.push_back({opened, {}, {}});
@@ -120,7 +150,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
     }
 
     std::string path() const {
-        std::string result;
+        std::string result = place_.path;
         for (const Level& level : levels_) {
             if (level.container->is_array()) {
                 appendIndex(result, level.container->empty() ? 0 : level.container->size() - 1);
@@ -131,8 +161,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
         return result;
     }
 
-    std::string_view text_;
-    std::string_view source_;
+    const ValuePlace& place_;
     Json root_;
     std::vector<Level> levels_;
 };
@@ -140,9 +169,19 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
 }  // namespace
 
 Json parseJson(std::string_view text, std::string_view source) {
-    DocumentBuilder builder(text, source);
-    Json::sax_parse(text.begin(), text.end(), &builder);
+    return parseJsonAt(text, source, {{0, text.size()}, {}, 0});
+}
+
+Json parseJsonAt(std::string_view text, std::string_view source, const ValuePlace& place) {
+    DocumentBuilder builder(text, source, place);
+    const std::string_view value = text.substr(place.range.begin, place.range.end - place.range.begin);
+    Json::sax_parse(value.begin(), value.end(), &builder);
     return builder.take();
+}
+
+void checkJsonSyntax(std::string_view text, std::string_view source) {
+    SyntaxReader reader(text, source, 0);
+    Json::sax_parse(text.begin(), text.end(), &reader);
 }
 
 std::string shown(const Json& value) {
@@ -264,7 +303,11 @@ JsonNode JsonNode::member(std::string_view key, const Json& value) const {
 }
 
 JsonNode JsonNode::element(std::size_t index) const {
-    return {(*value_)[index], *this, {}, index};
+    return element(index, (*value_)[index]);
+}
+
+JsonNode JsonNode::element(std::size_t index, const Json& value) const {
+    return {value, *this, {}, index};
 }
 
 }  // namespace cairn

@@ -21,9 +21,32 @@ using Json = nlohmann::ordered_json;
 /// The deepest nesting that is read; scene files need six levels.
 inline constexpr std::size_t json_depth_limit = 32;
 
+/// Wrong syntax: no JSON.
+class SyntaxError : public InputError {
+  public:
+    using InputError::InputError;
+};
+
+/// A part of a text.
+struct TextRange {
+    std::size_t begin = 0;  ///< [bytes]
+    std::size_t end = 0;    ///< one behind the last [bytes]
+};
+
+/// Where in a document a value stands that is parsed by itself.
+struct ValuePlace {
+    TextRange range{};      ///< of the document's text; for the line of wrong syntax
+    std::string path;       ///< such as `bodies[3]`, for messages
+    std::size_t depth = 0;  ///< levels around it
+};
+
 /// Parses a text. @param source shown in messages, such as the file's name
-/// @throws InputError with line and column for wrong syntax, with the path for keys given twice or too deep nesting
+/// @throws SyntaxError with line and column, InputError with the path for keys given twice or too deep nesting
 Json parseJson(std::string_view text, std::string_view source);
+/// Parses one value of a text. @throws as above; at the end of the range as at the end of a text
+Json parseJsonAt(std::string_view text, std::string_view source, const ValuePlace& place);
+/// Reads a text and builds nothing. @throws SyntaxError
+void checkJsonSyntax(std::string_view text, std::string_view source);
 
 /// A value's text for messages, shortened when it is long.
 std::string shown(const Json& value);
@@ -67,6 +90,8 @@ class JsonNode {
     std::optional<JsonNode> find(std::string_view key) const;
     JsonNode member(std::string_view key, const Json& value) const;
     JsonNode element(std::size_t index) const;
+    /// An element whose value is kept elsewhere.
+    JsonNode element(std::size_t index, const Json& value) const;
     std::size_t size() const { return value_->size(); }
 
   private:

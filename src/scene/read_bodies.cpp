@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -11,13 +12,6 @@
 
 namespace cairn {
 namespace {
-
-std::string knownMaterials(const SceneReading& reading) {
-    if (reading.scene.materials.empty()) return "'materials' lists none";
-    std::vector<std::string_view> names;
-    for (const Material& material : reading.scene.materials) names.push_back(material.name);
-    return fmt::format("known are {}", fmt::join(names, ", "));
-}
 
 /// @param inherited values of the members that are not given
 PairProperties readPair(const JsonNode& node, const PairProperties& inherited) {
@@ -76,8 +70,23 @@ Mat3 readInertia(const JsonNode& node) {
     return inertia;
 }
 
+/// Members that only a fixed body has, or none.
+void checkMotion(const JsonNode& node, const SceneBody& body) {
+    const auto member = [&](std::string_view key) { return node.find(key).value_or(node); };
+    if (body.fixed && !body.locked.empty()) {
+        member("locked").fail("is that of a fixed body, which moves along no axis; leave it out");
+    }
+    if (!body.fixed && !body.surface_velocity.isZero(0)) {
+        member("surface_velocity").fail("is that of a body that forces move; only the surface of a fixed body runs");
+    }
+    if (!body.fixed && body.motion) {
+        member("motion").fail("is that of a body that forces move; a body with a motion needs \"fixed\": true");
+    }
+}
+
 /// Members that contradict each other.
 void checkBody(const JsonNode& node, const SceneBody& body, const SceneReading& reading) {
+    checkMotion(node, body);
     const bool moves = !body.linear_velocity.isZero(0) || !body.angular_velocity.isZero(0);
     if (!isSolid(body.shape)) {
         const std::string_view name = shapeName(body.shape);
@@ -96,7 +105,7 @@ void checkBody(const JsonNode& node, const SceneBody& body, const SceneReading& 
 }
 
 /// Groups and what the body feels of its own.
-std::vector<JointAlong> readLocked(const JsonNode& node, const SceneBody& body) {
+std::vector<JointAlong> readLocked(const JsonNode& node) {
     node.expectArray("an array of axes of the world that do not move");
     std::vector<JointAlong> axes;
     for (std::size_t i = 0; i < node.size(); ++i) {
@@ -104,13 +113,13 @@ std::vector<JointAlong> readLocked(const JsonNode& node, const SceneBody& body) 
         if (std::ranges::find(axes, along) != axes.end()) node.element(i).fail("is given twice; give it once");
         axes.push_back(along);
     }
-    if (body.fixed && !axes.empty()) node.fail("is that of a fixed body, which moves along no axis; leave it out");
     return axes;
 }
 
 void readOwnProperties(const JsonNode& node, const SceneReading& reading, SceneBody& body) {
     if (const auto groups = node.find("groups")) {
         groups->expectArray("an array of names of groups");
+        body.groups.clear();
         for (std::size_t i = 0; i < groups->size(); ++i) {
             const std::string name = readGroup(groups->element(i), reading);
             if (std::ranges::find(body.groups, name) != body.groups.end()) {
@@ -129,7 +138,7 @@ void readOwnProperties(const JsonNode& node, const SceneReading& reading, SceneB
         return number;
     };
     if (const auto value = node.find("sensor")) body.sensor = value->flag();
-    if (const auto value = node.find("locked")) body.locked = readLocked(*value, body);
+    if (const auto value = node.find("locked")) body.locked = readLocked(*value);
     if (const auto value = node.find("gravity_factor")) {
         body.gravity_factor = checked(*value, [](double x) { requireGravityFactor(x); });
     }
@@ -145,21 +154,53 @@ void readOwnProperties(const JsonNode& node, const SceneReading& reading, SceneB
     }
 }
 
-SceneBody readBody(const JsonNode& node, const SceneReading& reading) {
-    node.expectKeys({"shape",           "material",         "name",           "mass",
-                     "centre_of_mass",  "inertia",          "position",       "orientation",
-                     "linear_velocity", "angular_velocity", "fixed",          "asleep",
-                     "groups",          "sensor",           "gravity_factor", "linear_damping",
-                     "angular_damping", "user_data",        "motion",         "surface_velocity",
-                     "locked"});
-    SceneBody body;
-    body.shape = readShape(node.required("shape", "an object"));
-    const JsonNode material = node.required("material", "the name of a material");
-    body.material = material.text();
-    if (!reading.density.contains(body.material)) {
-        material.fail(fmt::format("is the unknown material '{}'; {}", body.material, knownMaterials(reading)));
+constexpr std::array<std::string_view, 21> body_keys = {
+    "shape",           "material",         "template",       "mass",
+    "centre_of_mass",  "inertia",          "position",       "orientation",
+    "linear_velocity", "angular_velocity", "fixed",          "asleep",
+    "groups",          "sensor",           "gravity_factor", "linear_damping",
+    "angular_damping", "user_data",        "motion",         "surface_velocity",
+    "locked"};
+
+void readMotionOf(const JsonNode& node, SceneBody& body) {
+    if (const auto value = node.find("surface_velocity")) {
+        body.surface_velocity = value->vector();
     }
-    if (const auto value = node.find("name")) body.name = value->text();
+    if (const auto value = node.find("motion")) {
+        body.motion = readMotion(*value);
+        const auto pivot = value->find("pivot");
+        body.pivot = pivot ? pivot->vector() : Vec3::Zero();
+    }
+}
+
+/// What the body begins with.
+BodyTemplate templateOf(const JsonNode& node, const SceneReading& reading) {
+    const auto given = node.find("template");
+    if (!given) return {};
+    const auto found = reading.templates.find(given->text());
+    if (found != reading.templates.end()) return found->second;
+    if (reading.groups.contains(given->text())) {
+        given->fail("is a template of a group; 'includes' places it, a body needs that of a body");
+    }
+    given->fail(fmt::format("is the unknown template {}; {}", shown(given->value()),
+                            knownNames(reading.templates, "templates")));
+}
+
+/// What a body has, from its template on.
+BodyTemplate readMembers(const JsonNode& node, const SceneReading& reading) {
+    BodyTemplate read = templateOf(node, reading);
+    SceneBody& body = read.body;
+    if (const auto value = node.find("shape")) {
+        body.shape = readShape(*value, reading);
+        read.has_shape = true;
+    }
+    if (const auto value = node.find("material")) {
+        body.material = value->text();
+        if (!reading.density.contains(body.material)) {
+            value->fail(fmt::format("is the unknown material '{}'; {}", body.material,
+                                    knownNames(reading.density, "materials")));
+        }
+    }
     if (const auto value = node.find("mass")) body.mass = value->positive();
     if (const auto value = node.find("centre_of_mass")) body.centre_of_mass = value->vector();
     if (const auto value = node.find("inertia")) body.inertia = readInertia(*value);
@@ -170,20 +211,40 @@ SceneBody readBody(const JsonNode& node, const SceneReading& reading) {
     if (const auto value = node.find("fixed")) body.fixed = value->flag();
     if (const auto value = node.find("asleep")) body.asleep = value->flag();
     readOwnProperties(node, reading, body);
-    if (const auto value = node.find("surface_velocity")) {
-        body.surface_velocity = value->vector();
-        if (!body.fixed) value->fail("is that of a body that forces move; only the surface of a fixed body runs");
-    }
-    if (const auto value = node.find("motion")) {
-        body.motion = readMotion(*value);
-        if (const auto pivot = value->find("pivot")) body.pivot = pivot->vector();
-        if (!body.fixed) value->fail("is that of a body that forces move; a body with a motion needs \"fixed\": true");
-    }
-    checkBody(node, body, reading);
-    return body;
+    readMotionOf(node, body);
+    return read;
 }
 
 }  // namespace
+
+void readTemplateOfBody(const JsonNode& node, std::string_view name, SceneReading& reading) {
+    node.expectKeys(body_keys);
+    reading.templates.emplace(name, readMembers(node, reading));
+}
+
+void readBodyInto(const JsonNode& node, SceneReading& reading) {
+    std::array<std::string_view, body_keys.size() + 1> keys{"name"};
+    std::ranges::copy(body_keys, keys.begin() + 1);
+    node.expectKeys(keys);
+    BodyTemplate read = readMembers(node, reading);
+    SceneBody& body = read.body;
+    if (!read.has_shape) node.required("shape", "an object, or the name of a shape");
+    if (body.material.empty()) node.required("material", "the name of a material");
+    checkBody(node, body, reading);
+    if (const auto name = node.find("name")) {
+        body.name = name->text();
+        const auto [other, added] = reading.by_name.emplace(body.name, reading.scene.bodies.size());
+        if (!added) {
+            name->fail(fmt::format("is '{}' as that of bodies[{}]; a name must be unique", body.name, other->second));
+        }
+    }
+    reading.scene.bodies.push_back(std::move(body));
+}
+
+void readBodies(const JsonNode& node, SceneReading& reading) {
+    node.expectArray("an array of bodies; it may be empty");
+    for (std::size_t i = 0; i < node.size(); ++i) readBodyInto(node.element(i), reading);
+}
 
 void readMaterials(const JsonNode& node, SceneReading& reading) {
     if (!node.value().is_object()) node.refuse("an object with one entry per material");
@@ -218,7 +279,8 @@ void readContacts(const JsonNode& node, SceneReading& reading) {
         std::pair<std::string, std::string> names{key.substr(0, slash), key.substr(slash + 1)};
         for (const std::string& name : {names.first, names.second}) {
             if (!reading.density.contains(name)) {
-                entry.fail(fmt::format("names the unknown material '{}'; {}", name, knownMaterials(reading)));
+                entry.fail(
+                    fmt::format("names the unknown material '{}'; {}", name, knownNames(reading.density, "materials")));
             }
         }
         if (!seen.insert(std::minmax(names.first, names.second)).second) {
@@ -226,24 +288,6 @@ void readContacts(const JsonNode& node, SceneReading& reading) {
         }
         if (const auto law = entry.find("law")) scene.pair_laws.emplace_back(names, readPairLaw(*law));
         scene.pairs.emplace_back(std::move(names), readPair(entry, scene.default_pair));
-    }
-}
-
-void readBodies(const JsonNode& node, SceneReading& reading) {
-    node.expectArray("an array of bodies; it may be empty");
-    reading.scene.bodies.reserve(node.size());
-    for (std::size_t i = 0; i < node.size(); ++i) {
-        const JsonNode entry = node.element(i);
-        SceneBody body = readBody(entry, reading);
-        if (!body.name.empty()) {
-            const auto [other, added] = reading.by_name.emplace(body.name, i);
-            if (!added) {
-                entry.required("name", "a text")
-                    .fail(
-                        fmt::format("is '{}' as that of bodies[{}]; a name must be unique", body.name, other->second));
-            }
-        }
-        reading.scene.bodies.push_back(std::move(body));
     }
 }
 

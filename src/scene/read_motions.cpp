@@ -65,10 +65,7 @@ Motion readAccelerogram(const JsonNode& node, const JsonNode& accelerations) {
 
 TableEnd readEnd(const JsonNode& node) {
     const auto value = node.find("end");
-    if (!value) return TableEnd::hold;
-    const std::string name = value->text();
-    if (name != "hold" && name != "repeat") value->refuse("hold or repeat");
-    return name == "repeat" ? TableEnd::repeat : TableEnd::hold;
+    return value ? readTableEnd(*value) : TableEnd::hold;
 }
 
 /// Times with displacements and maybe turns; or accelerations where an interval is given.
@@ -117,6 +114,12 @@ Motion readLaw(const JsonNode& node) {
 }
 
 }  // namespace
+
+TableEnd readTableEnd(const JsonNode& node) {
+    const std::string name = node.text();
+    if (name != "hold" && name != "repeat") node.refuse("hold or repeat");
+    return name == "repeat" ? TableEnd::repeat : TableEnd::hold;
+}
 
 Motion readMotion(const JsonNode& node) {
     Motion motion = readLaw(node);

@@ -143,10 +143,10 @@ Shape readHeightFieldShape(const JsonNode& node) {
     return built(node, [&] { return HeightField(columns, std::move(heights), spacing); });
 }
 
-CompoundPart readPart(const JsonNode& node) {
+CompoundPart readPart(const JsonNode& node, const SceneReading& reading) {
     node.expectKeys({"shape", "position", "orientation", "mass", "density"});
     const JsonNode shape = node.required("shape", "an object");
-    CompoundPart part{readShape(shape), {}, {}, {}};
+    CompoundPart part{readShape(shape, reading), {}, {}, {}};
     if (!isSolid(part.shape) || std::holds_alternative<Compound>(part.shape)) {
         shape.fail(fmt::format("is a {}; a part of a compound must be a sphere, box, capsule, cylinder or hull",
                                shapeName(part.shape)));
@@ -159,20 +159,32 @@ CompoundPart readPart(const JsonNode& node) {
     return part;
 }
 
-Shape readCompound(const JsonNode& node) {
+Shape readCompound(const JsonNode& node, const SceneReading& reading) {
     node.expectKeys({"type", "parts"});
     const JsonNode list = node.required("parts", "an array of at least one part");
     list.expectArray("an array of at least one part");
     if (list.size() == 0) list.fail("is empty; a compound without parts has no mass, it needs at least one");
     Compound compound;
-    for (std::size_t i = 0; i < list.size(); ++i) compound.parts.push_back(readPart(list.element(i)));
+    for (std::size_t i = 0; i < list.size(); ++i) compound.parts.push_back(readPart(list.element(i), reading));
     return compound;
 }
 
 }  // namespace
 
-Shape readShape(const JsonNode& node) {
-    if (!node.value().is_object()) node.refuse("an object with the key type and the dimensions");
+std::filesystem::path fileOf(const JsonNode& node) {
+    const std::filesystem::path file(node.text());
+    return file.is_absolute() ? file : std::filesystem::path(node.source()).parent_path() / file;
+}
+
+Shape readShape(const JsonNode& node, const SceneReading& reading) {
+    if (node.value().is_string()) {
+        const auto found = reading.shapes.find(node.value().get_ref<const std::string&>());
+        if (found != reading.shapes.end()) return found->second;
+        node.fail(
+            fmt::format("is the unknown shape {}; {}", shown(node.value()), knownNames(reading.shapes, "shapes")));
+    }
+    if (!node.value().is_object())
+        node.refuse("an object with the key type and the dimensions, or the name of a shape");
     const JsonNode type_node = node.required("type", shape_types);
     const std::string type = type_node.text();
     if (type == "sphere") {
@@ -191,7 +203,7 @@ Shape readShape(const JsonNode& node) {
     if (type == "mesh") return readMeshShape(node);
     if (type == "height_field") return readHeightFieldShape(node);
     if (type != "compound") type_node.refuse(shape_types);
-    return readCompound(node);
+    return readCompound(node, reading);
 }
 
 Quat readOrientation(const JsonNode& node) {

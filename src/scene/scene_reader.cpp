@@ -3,16 +3,13 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
+#include <new>
 
 #include "integration/motion_curve.h"
 #include "scene/scene_reading.h"
 
 namespace cairn {
 namespace {
-
-/// Largest file that is read [bytes]: about half a million bodies.
-constexpr std::uintmax_t largest_file = std::uintmax_t{64} << 20U;
 
 SettingValue readSettingValue(const JsonNode& node) {
     const Json& value = node.value();
@@ -56,47 +53,80 @@ void readFrameMotion(const JsonNode& node, Scene& scene) {
         node.fail("turns; the frame of a scene does not, remove spin or turns");
 }
 
-}  // namespace
+std::string textOf(const std::filesystem::path& file) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    std::ifstream stream(file, std::ios::binary);
+    std::string text;
+    if (!error && stream) {
+        try {
+            text.resize(size);
+        } catch (const std::bad_alloc&) {
+            throw IoError(fmt::format("{}: cannot be read; its {} bytes are more than the memory that is free",
+                                      file.string(), size));
+        }
+        stream.read(text.data(), static_cast<std::streamsize>(size));
+        text.resize(static_cast<std::size_t>(stream.gcount()));
+    }
+    if (error || !stream.is_open() || stream.bad()) {
+        throw IoError(fmt::format("{}: cannot be read ({}); give the path of a scene file", file.string(),
+                                  error ? error.message() : "not readable"));
+    }
+    return text;
+}
 
-Scene parseScene(std::string_view json, std::string_view source) {
-    const Json document = parseJson(json, source);
-    const JsonNode root(document, source);
-    root.expectKeys({"name", "duration", "gravity", "events", "materials", "contacts", "filters", "frame_motion",
-                     "bodies", "springs", "joints", "settings"});
-    SceneReading reading;
-    Scene& scene = reading.scene;
-    scene.name = root.required("name", "a text that is not empty").text();
-    scene.duration = root.required("duration", "a number above 0 [s]").positive();
-    scene.gravity = root.required("gravity", "an array of three numbers [m/s²]").vector();
+/// What names other things, and what it names.
+void readContents(const JsonDocument& document, SceneReading& reading) {
+    const JsonNode root = document.root();
     if (const auto node = root.find("materials")) readMaterials(*node, reading);
     if (const auto node = root.find("contacts")) readContacts(*node, reading);
     const auto filters = root.find("filters");
     if (filters) readGroups(*filters, reading);
-    readBodies(root.required("bodies", "an array of bodies; it may be empty"), reading);
+    if (const auto node = root.find("shapes")) readSharedShapes(*node, reading);
+    if (const auto node = root.find("templates")) readTemplates(*node, reading);
+    const JsonNode bodies = root.required("bodies", "an array of bodies; it may be empty");
+    bodies.expectArray("an array of bodies; it may be empty");
+    document.forEachElement(bodies, [&reading](const JsonNode& body) { readBodyInto(body, reading); });
+    if (const auto node = root.find("includes")) readIncludes(*node, reading);
     if (filters) readFilterExceptions(*filters, reading);
-    if (const auto node = root.find("frame_motion")) readFrameMotion(*node, scene);
     if (const auto node = root.find("events")) readEvents(*node, reading);
     if (const auto node = root.find("springs")) readSprings(*node, reading);
     if (const auto node = root.find("joints")) readJoints(*node, reading);
+    addPlaced(reading);
+    if (const auto node = root.find("drives")) readDrives(*node, reading);
+}
+
+Scene parseSceneIn(std::string_view json, std::string_view source, std::vector<std::filesystem::path> files) {
+    const JsonDocument document(json, source, "bodies");
+    const JsonNode root = document.root();
+    root.expectKeys({"name", "duration", "gravity", "events", "materials", "contacts", "filters", "frame_motion",
+                     "shapes", "templates", "bodies", "includes", "springs", "joints", "drives", "settings"});
+    SceneReading reading;
+    reading.files = std::move(files);
+    Scene& scene = reading.scene;
+    scene.name = root.required("name", "a text that is not empty").text();
+    scene.duration = root.required("duration", "a number above 0 [s]").positive();
+    scene.gravity = root.required("gravity", "an array of three numbers [m/s²]").vector();
+    readContents(document, reading);
+    if (const auto node = root.find("frame_motion")) readFrameMotion(*node, scene);
     if (const auto node = root.find("settings")) readSettings(*node, scene);
-    return scene;
+    return std::move(reading.scene);
+}
+
+}  // namespace
+
+Scene parseScene(std::string_view json, std::string_view source) {
+    return parseSceneIn(json, source, {});
 }
 
 Scene readScene(const std::filesystem::path& file) {
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(file, error);
-    if (!error && size > largest_file) {
-        throw InputError(
-            fmt::format("{}: the file has {} bytes; a scene has at most {}", file.string(), size, largest_file));
-    }
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    if (stream) text << stream.rdbuf();
-    if (error || !stream || stream.bad()) {
-        throw IoError(fmt::format("{}: cannot be read ({}); give the path of a scene file", file.string(),
-                                  error ? error.message() : "not readable"));
-    }
-    return parseScene(text.str(), file.string());
+    return readSceneIn(file, {});
+}
+
+Scene readSceneIn(const std::filesystem::path& file, std::vector<std::filesystem::path> files) {
+    const std::string text = textOf(file);
+    files.push_back(std::filesystem::weakly_canonical(file));
+    return parseSceneIn(text, file.string(), std::move(files));
 }
 
 }  // namespace cairn

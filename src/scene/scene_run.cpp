@@ -6,6 +6,7 @@
 
 #include "cairn/scene.h"
 #include "scene/body_title.h"
+#include "scene/drives.h"
 
 namespace cairn {
 namespace {
@@ -198,7 +199,7 @@ Settings settingsFor(const Scene& scene, const SettingOverrides& overrides) {
     return settings;
 }
 
-SceneRun::SceneRun(const Scene& scene, const Settings& settings) : scene_(scene), world_(settings) {
+SceneRun::SceneRun(Scene scene, const Settings& settings) : scene_(std::move(scene)), world_(settings) {
     std::stable_sort(scene_.events.begin(), scene_.events.end(),
                      [](const SceneEvent& a, const SceneEvent& b) { return a.time < b.time; });
     const MaterialIds materials = addMaterials(scene_, world_);
@@ -222,6 +223,16 @@ SceneRun::SceneRun(const Scene& scene, const Settings& settings) : scene_(scene)
         inContext(fmt::format("joint {}", i),
                   [&] { joints.push_back(addJoint(scene_.joints[i], ids_, joints, world_)); });
     }
+    takeDrives();
+}
+
+void SceneRun::takeDrives() {
+    for (std::size_t i = 0; i < scene_.drives.size(); ++i) {
+        inContext(fmt::format("drive {}", i), [&] {
+            requireDrive(scene_.drives[i], scene_);
+            curves_.push_back(std::make_shared<const MotionCurve>(scene_.drives[i].law));
+        });
+    }
 }
 
 void SceneRun::apply(const EventAction& action) {
@@ -237,6 +248,9 @@ void SceneRun::step() {
     while (next_event_ < scene_.events.size() && scene_.events[next_event_].time <= now) {
         const SceneEvent& event = scene_.events[next_event_++];
         inContext(fmt::format("event at {} s", event.time), [&] { apply(event.action); });
+    }
+    for (std::size_t i = 0; i < curves_.size(); ++i) {
+        inContext(fmt::format("drive {}", i), [&] { applyDrive(scene_.drives[i], *curves_[i], scene_, ids_, world_); });
     }
     world_.step();
 }

@@ -5,7 +5,9 @@
 namespace cairn {
 
 SceneRun::SceneRun(Scene scene, World world, std::vector<BodyId> ids, std::size_t next_event)
-    : scene_(std::move(scene)), world_(std::move(world)), ids_(std::move(ids)), next_event_(next_event) {}
+    : scene_(std::move(scene)), world_(std::move(world)), ids_(std::move(ids)), next_event_(next_event) {
+    takeDrives();
+}
 
 std::vector<std::byte> SceneRun::save() const {
     std::vector<std::byte> snapshot;

@@ -13,8 +13,10 @@
 namespace cairn {
 namespace {
 
+using written::arrayText;
 using written::isOmitted;
 using written::number;
+using written::orientationText;
 using written::same;
 using written::vector;
 
@@ -25,83 +27,6 @@ std::string text(const std::string& value) {
         throw InputError(
             fmt::format("a scene with the name {} cannot be written; names must be UTF-8", shown(Json(value))));
     }
-}
-
-std::string shapeText(const Sphere& s) {
-    return fmt::format(R"("sphere","radius":{})", number(s.radius));
-}
-std::string shapeText(const Box& s) {
-    return fmt::format(R"("box","size":{})", vector(s.size));
-}
-std::string shapeText(const Capsule& s) {
-    return fmt::format(R"("capsule","radius":{},"length":{})", number(s.radius), number(s.length));
-}
-std::string shapeText(const Cylinder& s) {
-    return fmt::format(R"("cylinder","radius":{},"length":{})", number(s.radius), number(s.length));
-}
-std::string shapeText(const HalfSpace& s) {
-    return fmt::format(R"("plane","normal":{},"offset":{})", vector(s.normal), number(s.offset));
-}
-
-std::string orientationText(const Quat& q) {
-    if (same(q.w(), 1) && isOmitted(q.vec())) return "";
-    return fmt::format(R"(,"orientation":[{},{},{},{}])", number(q.w()), number(q.x()), number(q.y()), number(q.z()));
-}
-
-std::string shapeText(const ConvexHull& s) {
-    std::string out = R"("hull","points":[)";
-    for (const Vec3& point : s.points()) {
-        if (out.back() != '[') out += ',';
-        out += vector(point);
-    }
-    return out + "]";
-}
-
-/// All elements, each as a text of its own.
-template <class Range, class ToText>
-std::string arrayText(const Range& range, const ToText& toText) {
-    std::string out = "[";
-    for (const auto& element : range) {
-        if (out.size() > 1) out += ',';
-        out += toText(element);
-    }
-    return out + "]";
-}
-
-std::string shapeText(const Mesh& s) {
-    const auto triangle = [](const TriangleCorners& t) { return fmt::format("[{},{},{}]", t[0], t[1], t[2]); };
-    return fmt::format(R"("mesh","vertices":{},"indices":{}{})", arrayText(s.vertices(), vector),
-                       arrayText(s.triangles(), triangle), s.sides() == SurfaceSides::two ? R"(,"sides":"two")" : "");
-}
-
-std::string shapeText(const HeightField& s) {
-    std::string rows;
-    for (std::size_t row = 0; row < s.rows(); ++row) {
-        if (row > 0) rows += ',';
-        rows += arrayText(s.heights().subspan(row * s.columns(), s.columns()), number);
-    }
-    return fmt::format(R"("height_field","heights":[{}],"spacing":[{},{}])", rows, number(s.spacing().x()),
-                       number(s.spacing().y()));
-}
-
-std::string shapeText(const Compound& s);
-
-std::string objectText(const Shape& shape) {
-    return fmt::format(R"({{"type":{}}})", std::visit([](const auto& s) { return shapeText(s); }, shape));
-}
-
-std::string shapeText(const Compound& s) {
-    std::string out = R"("compound","parts":[)";
-    for (const CompoundPart& part : s.parts) {
-        if (out.back() != '[') out += ',';
-        out += fmt::format(R"({{"shape":{})", objectText(part.shape));
-        if (!isOmitted(part.pose.position)) out += fmt::format(R"(,"position":{})", vector(part.pose.position));
-        out += orientationText(part.pose.orientation);
-        if (part.mass) out += fmt::format(R"(,"mass":{})", number(*part.mass));
-        if (part.density) out += fmt::format(R"(,"density":{})", number(*part.density));
-        out += '}';
-    }
-    return out + "]";
 }
 
 /// Three moments, and the three products if there are any.
@@ -180,8 +105,8 @@ std::string filtersText(const SceneFilters& filters) {
     return out + "}";
 }
 
-std::string bodyText(const SceneBody& body) {
-    std::string out = fmt::format(R"({{"shape":{},"material":{})", objectText(body.shape), text(body.material));
+std::string bodyText(const SceneBody& body, const WrittenShapes& shapes) {
+    std::string out = fmt::format(R"({{"shape":{},"material":{})", shapes.textOf(body.shape), text(body.material));
     const auto addVector = [&out](std::string_view key, const Vec3& value) {
         if (!isOmitted(value)) out += fmt::format(R"(,"{}":{})", key, vector(value));
     };
@@ -334,9 +259,13 @@ std::string formatScene(const Scene& scene) {
     if (scene.frame_motion) {
         out += fmt::format("\"frame_motion\":{},\n", motionText(*scene.frame_motion, Vec3::Zero()));
     }
-    out += fmt::format("\"bodies\":{}", lines(scene.bodies, bodyText));
+    const WrittenShapes shapes(scene);
+    if (const std::string shared = shapes.shared(); !shared.empty()) out += fmt::format("\"shapes\":{},\n", shared);
+    out += "\"bodies\":";
+    out += lines(scene.bodies, [&shapes](const SceneBody& body) { return bodyText(body, shapes); });
     if (!scene.springs.empty()) out += fmt::format(",\n\"springs\":{}", lines(scene.springs, springText));
     if (!scene.joints.empty()) out += fmt::format(",\n\"joints\":{}", lines(scene.joints, jointText));
+    if (!scene.drives.empty()) out += fmt::format(",\n\"drives\":{}", lines(scene.drives, driveText));
     if (scene.preset || !scene.settings.empty()) out += fmt::format(",\n\"settings\":{}", settingsText(scene));
     return out + "}\n";
 }

@@ -27,4 +27,9 @@ std::string vector(const Vec3& v) {
     return fmt::format("[{},{},{}]", number(v.x()), number(v.y()), number(v.z()));
 }
 
+std::string orientationText(const Quat& q) {
+    if (same(q.w(), 1) && isOmitted(q.vec())) return "";
+    return fmt::format(R"(,"orientation":[{},{},{},{}])", number(q.w()), number(q.x()), number(q.y()), number(q.z()));
+}
+
 }  // namespace cairn::written

@@ -1,7 +1,9 @@
 /// @file Parts of the text of a scene.
 #pragma once
 
+#include <map>
 #include <string>
+#include <vector>
 
 #include "cairn/scene.h"
 
@@ -17,9 +19,39 @@ std::string vector(const Vec3& v);
 bool same(double a, double b);
 /// Whether a vector is zero, which is left out.
 bool isOmitted(const Vec3& v);
+/// A member of an object behind others; empty for the identity.
+std::string orientationText(const Quat& q);
+
+/// All elements, each as a text of its own.
+template <class Range, class ToText>
+std::string arrayText(const Range& range, const ToText& toText) {
+    std::string out = "[";
+    for (const auto& element : range) {
+        if (out.size() > 1) out += ',';
+        out += toText(element);
+    }
+    return out + "]";
+}
 
 }  // namespace written
 
+/// The shapes of a scene, of which those with many numbers are written once if several bodies have them.
+class WrittenShapes {
+  public:
+    explicit WrittenShapes(const Scene& scene);
+    /// The shape as the value of a body's key.
+    std::string textOf(const Shape& shape) const;
+    /// The shapes that bodies name, as the value of the scene's key; empty if there are none.
+    std::string shared() const;
+
+  private:
+    std::map<const void*, std::string> by_data_;  ///< texts of what copies of shapes share
+    std::map<std::string, std::size_t> counts_;   ///< of bodies, by text
+    std::map<std::string, std::string> names_;    ///< of shared shapes, by text
+    std::vector<std::string> order_;              ///< texts of shared shapes as they are named
+};
+
+std::string driveText(const SceneDrive& drive);
 std::string pairLawText(const PairLaw& law);
 std::string jointText(const SceneJoint& scene_joint);
 

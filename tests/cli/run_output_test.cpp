@@ -57,6 +57,27 @@ TEST_F(CommandLine, jsonIsOneObjectWithAllKeys) {
     EXPECT_EQ(hash.find_first_not_of("0123456789abcdef"), std::string::npos) << hash;
 }
 
+TEST_F(CommandLine, recordsForcesAndFramesAtAnyRate) {
+    const std::filesystem::path recorded = file("forces.h5");
+    const Finished done = cairn({"run", "tower:3", "--duration", "0.5", "--quiet", "--record", recorded.string(),
+                                 "--frame-rate", "50", "--record-contacts", "--record-joints"});
+    ASSERT_EQ(done.code, 0) << done.error;
+    const RecordingReader recording(recorded);
+    EXPECT_EQ(recording.info().frames, 26U);
+    EXPECT_FALSE(recording.frame(25).contact_impulse.empty());
+    EXPECT_EQ(cairn({"export", recorded.string(), "--vtk", (folder() / "out").string()}).code, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder() / "out_forces.pvd"));
+    for (const std::vector<std::string>& alone :
+         {std::vector<std::string>{"--frame-rate", "50"}, {"--record-contacts"}, {"--record-joints"}}) {
+        std::vector<std::string> arguments{"run", "tower:3"};
+        arguments.insert(arguments.end(), alone.begin(), alone.end());
+        const Finished refused = cairn(arguments);
+        EXPECT_EQ(refused.code, 2);
+        EXPECT_NE(refused.error.find(alone[0] + " needs --record"), std::string::npos) << refused.error;
+    }
+    EXPECT_EQ(cairn({"run", "tower:3", "--record", recorded.string(), "--frame-rate", "1e9"}).code, 2);
+}
+
 TEST_F(CommandLine, timeStepsBeyondTheThesisAreWarnedOf) {
     const auto errorsAt = [&](const char* steps_per_second) {
         const Finished done =
@@ -74,7 +95,7 @@ TEST_F(CommandLine, timeStepsBeyondTheThesisAreWarnedOf) {
 void forge(const std::filesystem::path& from, const std::filesystem::path& to) {
     const RecordingReader reader(from);
     const RecordingInfo& info = reader.info();
-    RecordingWriter writer(to, info.scene, settingsFor(info.scene), info.hashes_per_frame);
+    RecordingWriter writer(to, info.scene, settingsFor(info.scene), {.hashes_per_frame = info.hashes_per_frame});
     for (std::size_t i = 0; i < info.frames; ++i) {
         Frame frame = reader.frame(i);
         if (i == 10) frame.position[2].x() += 1e-9;

@@ -36,7 +36,7 @@ class Verify : public testing::Test {
         const Settings settings = settingsFor(scene);
         SceneRun run(scene, settings);
         const fs::path file = folder_ / "run.h5";
-        RecordingWriter writer(file, scene, settings, hashes);
+        RecordingWriter writer(file, scene, settings, {.hashes_per_frame = hashes});
         writer.append(captureFrame(run, {}));
         std::vector<std::uint64_t> now;
         for (int i = 1; i <= 30; ++i) {

@@ -30,6 +30,17 @@ TEST(SceneDocumentation, ItsExampleIsAScene) {
     EXPECT_TRUE(run.world().faults().empty());
 }
 
+TEST(SceneDocumentation, ItsGatesStand) {
+    const std::string text = documentation();
+    const std::size_t begin = text.find("{\n  \"name\": \"two gates\"");
+    ASSERT_NE(begin, std::string::npos);
+    const Scene scene = parseScene(text.substr(begin, text.find("```", begin) - begin), "docs/scenes.md");
+    ASSERT_EQ(scene.bodies.size(), 7U);
+    SceneRun run(scene, settingsFor(scene));
+    for (int i = 0; i < 60; ++i) run.simulationStep();
+    for (const std::size_t wedge : {3U, 6U}) EXPECT_NEAR(run.world().pose(run.ids()[wedge]).position.z(), 1, 0.02);
+}
+
 TEST(SceneDocumentation, NamesEveryBuiltInScene) {
     const std::string text = documentation();
     for (const BuiltInScene& scene : builtInScenes()) {

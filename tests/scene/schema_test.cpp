@@ -57,6 +57,13 @@ TEST(SceneSchema, ListsTheKeysThatTheReaderAllows) {
     const std::string head = R"({"name":"a","duration":1,"gravity":[0,0,0],)";
     EXPECT_EQ(keysOf(parts.at("material")), allowedKeys(head + R"("materials":{"oak":{"?":1}}})"));
     EXPECT_EQ(keysOf(parts.at("pair")), allowedKeys(head + R"("contacts":{"default":{"?":1}}})"));
+    const auto asTemplate = [&](const std::string& entry) {
+        return head + R"("bodies":[],"templates":{"t":)" + entry + "}}";
+    };
+    EXPECT_EQ(keysOf(parts.at("template")), allowedKeys(asTemplate(R"({"?":1})")));
+    EXPECT_EQ(keysOf(parts.at("group")), allowedKeys(asTemplate(R"({"bodies":[],"?":1})")));
+    EXPECT_EQ(keysOf(parts.at("include")), allowedKeys(sceneText(R"(,"includes":[{"?":1}])")));
+    EXPECT_EQ(keysOf(parts.at("drive")), allowedKeys(sceneText(R"(,"drives":[{"?":1,"force":1}])")));
     for (const Json& shape : parts.at("shape").at("oneOf")) {
         const std::string type = shape.at("properties").at("type").at("const").get<std::string>();
         const std::string body = R"({"material":"oak","shape":{"type":")" + type + R"(","?":1}})";
@@ -91,7 +98,7 @@ TEST(SceneSchema, RequiresWhatTheReaderRequires) {
         return scene;
     };
     expectRequired(root, complete, complete, whole);
-    expectRequired(root.at("$defs").at("body"), complete, complete.at("bodies").at(1), asBody);
+    expectRequired(root.at("$defs").at("body").at("anyOf").at(0), complete, complete.at("bodies").at(1), asBody);
     const Json spring = Json::parse(R"({"a":1,"b":2,"stiffness":1,"damping":1})");
     expectRequired(root.at("$defs").at("spring"), complete, spring, asSpring);
 }

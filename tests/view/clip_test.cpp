@@ -18,7 +18,7 @@ class ClipReader {
     explicit ClipReader(const std::string& clip) : bytes_(gunzip(clip)) {
         EXPECT_EQ(bytes_.substr(0, 8), "CAIRNCLP");
         at_ = 8;
-        EXPECT_EQ(number<std::uint32_t>(), 2U);
+        EXPECT_EQ(number<std::uint32_t>(), 3U);
         const auto size = number<std::uint32_t>();
         header = nlohmann::json::parse(bytes_.substr(at_, size));
         at_ += size;
@@ -61,7 +61,8 @@ class ClipReader {
     }
 
     nlohmann::json header;
-    std::array<std::string, 7> streams;  ///< times, flags, positions, orientations, velocities, spins, samples
+    std::array<std::string, 8>
+        streams;  ///< times, flags, positions, orientations, velocities, spins, samples, contacts
 
   private:
     template <typename Number>
@@ -78,15 +79,18 @@ class ClipReader {
 
 class Clip : public testing::Test {
   protected:
-    static std::filesystem::path record(const Scene& scene, int steps) {
+    static std::filesystem::path record(const Scene& scene, int steps, const RecordingOptions& options = {}) {
         const auto file = std::filesystem::temp_directory_path() /
                           ("cairn-clip-" + std::to_string(::getpid()) + "-" +
                            testing::UnitTest::GetInstance()->current_test_info()->name() + ".h5");
         const Settings settings = settingsFor(scene);
         SceneRun run(scene, settings);
-        RecordingWriter writer(file, scene, settings);
-        writer.append(captureFrame(run, {}));
-        for (int i = 0; i < steps; ++i) writer.append(captureFrame(run, run.simulationStep()));
+        RecordingWriter writer(file, scene, settings, options);
+        writer.append(captureFrame(run, {}, options));
+        for (int i = 0; i < steps; ++i) {
+            const Statistics statistics = run.simulationStep();
+            writer.append(captureFrame(run, statistics, options));
+        }
         writer.close();
         return file;
     }
@@ -179,6 +183,30 @@ TEST_F(Clip, ThePageHoldsTheClip) {
     EXPECT_THROW(exportHtml(RecordingReader(file), "/nonexistent/folder/a.html"), IoError);
     std::filesystem::remove(html);
     std::filesystem::remove(file);
+}
+
+TEST_F(Clip, HasContactsSensorsAndLaws) {
+    const Scene scene =
+        parseScene(R"({"name":"c","duration":1,"gravity":[0,0,-10],"materials":{"oak":{"density":800}},"bodies":[
+        {"shape":{"type":"plane","normal":[0,0,1],"offset":0},"material":"oak","fixed":true},
+        {"shape":{"type":"sphere","radius":0.1},"material":"oak","position":[0,0,0.1]},
+        {"shape":{"type":"box","size":[1,1,1]},"material":"oak","fixed":true,"sensor":true},
+        {"shape":{"type":"box","size":[1,1,1]},"material":"oak","position":[9,0,0],"fixed":true,
+         "motion":{"type":"constant","spin":[0,0,2]},"surface_velocity":[1,0,0]}]})",
+                   "c");
+    const auto file = record(scene, 1, {.contacts = true});
+    const ClipReader clip(makeClip(RecordingReader(file)));
+    std::filesystem::remove(file);
+    EXPECT_TRUE(clip.header.at("contacts").get<bool>());
+    ASSERT_EQ(clip.streams[7].size(), 4U + 4 + 48) << "none in the first frame, one in the second";
+    std::array<std::uint32_t, 4> begin{};
+    std::memcpy(begin.data(), clip.streams[7].data(), sizeof(begin));
+    EXPECT_EQ(begin, (std::array<std::uint32_t, 4>{0, 1, 0, 1})) << "numbers, then bodies";
+    const nlohmann::json& bodies = clip.header.at("bodies");
+    EXPECT_FALSE(bodies.at(1).contains("sensor") || bodies.at(1).contains("law"));
+    EXPECT_TRUE(bodies.at(2).at("sensor").get<bool>());
+    EXPECT_EQ(bodies.at(3).at("law").at("spin"), nlohmann::json({0.0, 0.0, 2.0}));
+    EXPECT_EQ(bodies.at(3).at("law").at("surface"), nlohmann::json({1.0, 0.0, 0.0}));
 }
 
 TEST(Gzip, RoundTripsAndRefusesBrokenData) {

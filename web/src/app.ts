@@ -81,7 +81,8 @@ export class App {
     this.stage.touch();
   }
 
-  setPages(pages: Partial<Record<Tab, HTMLElement>>, replay: boolean): void {
+  /** @param replay what kind of recording is shown; undefined = a live world */
+  setPages(pages: Partial<Record<Tab, HTMLElement>>, replay?: { contacts: boolean }): void {
     this.layers.build(replay);
     this.help.build(!replay);
     this.shell.setPages({ view: h('div', {}, this.layers.element, this.about), ...pages });

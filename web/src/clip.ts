@@ -1,6 +1,6 @@
 /** Clips: recordings as `cairn view` serves and `cairn export --html` embeds them. Format: docs/view-protocol.md. */
 import { breaksOf, jointsAt, springsAt, type JointInfo, type LineInfo } from './links';
-import { present, type BodyInfo, type Frame, type MaterialInfo, type Roster, type Sample } from './model';
+import { present, type BodyInfo, type Contacts, type Frame, type MaterialInfo, type Roster, type Sample } from './model';
 import type { Value } from './protocol';
 
 interface Header {
@@ -13,6 +13,8 @@ interface Header {
   joints: JointInfo[];
   springs: LineInfo[];
   frames: number;
+  /** whether contacts were recorded */
+  contacts: boolean;
   stages: string[];
   sampleFields: string[];
   positionUnit: number;
@@ -22,7 +24,7 @@ interface Header {
 }
 
 const magic = 'CAIRNCLP';
-const clipVersion = 2;
+const clipVersion = 3;
 
 /** A recording in memory: every frame can be had at once. */
 export class Clip {
@@ -40,6 +42,7 @@ export class Clip {
     private readonly velocities: Float32Array,
     private readonly spins: Float32Array,
     sampleValues: Float64Array,
+    private readonly contacts: Contacts[],
   ) {
     this.count = header.bodies.length;
     this.roster = {
@@ -82,6 +85,7 @@ export class Clip {
     if (part > 1e-6) this.blend(frame, j, part);
     frame.joints = jointsAt(this.header.joints, frame, (joint) => this.breaks[joint] <= i);
     frame.springs = springsAt(this.header.springs, frame);
+    if (this.header.contacts) frame.contacts = this.contacts[i];
     for (let b = 0; b < n; b++) {
       const at = 3 * (n * i + b);
       frame.speed[b] = Math.hypot(this.velocities[at], this.velocities[at + 1], this.velocities[at + 2]);
@@ -155,7 +159,34 @@ export async function decodeClip(compressed: Blob): Promise<Clip> {
   normalise(orientations);
   const velocities = undelta(take(), header.frames, n, 3, header.velocityUnit, 1);
   const spins = undelta(take(), header.frames, n, 3, header.spinUnit, 1);
-  return new Clip(header, times, flags, positions, orientations, velocities, spins, toNumbers(take()));
+  return new Clip(header, times, flags, positions, orientations, velocities, spins, toNumbers(take()), toContacts(take(), header.frames));
+}
+
+/** Of each frame: their number, then two indices and ten numbers for each. */
+function toContacts(bytes: Uint8Array, frames: number): Contacts[] {
+  const view = new DataView(bytes.slice().buffer);
+  const all: Contacts[] = [];
+  let at = 0;
+  for (let f = 0; f < frames; f++) {
+    const count = view.getUint32(at, true);
+    at += 4;
+    const contacts: Contacts = {
+      count, a: new Uint32Array(count), b: new Uint32Array(count), distance: new Float32Array(count),
+      point: new Float32Array(3 * count), normal: new Float32Array(3 * count), impulse: new Float32Array(3 * count),
+    };
+    for (let i = 0; i < count; i++, at += 48) {
+      contacts.a[i] = view.getUint32(at, true);
+      contacts.b[i] = view.getUint32(at + 4, true);
+      contacts.distance[i] = view.getFloat32(at + 8, true);
+      for (let k = 0; k < 3; k++) {
+        contacts.point[3 * i + k] = view.getFloat32(at + 12 + 4 * k, true);
+        contacts.normal[3 * i + k] = view.getFloat32(at + 24 + 4 * k, true);
+        contacts.impulse[3 * i + k] = view.getFloat32(at + 36 + 4 * k, true);
+      }
+    }
+    all.push(contacts);
+  }
+  return all;
 }
 
 function toNumbers(bytes: Uint8Array): Float64Array {

@@ -56,7 +56,7 @@ export class Live implements Mode {
     this.buildBars(hello);
     this.settings.setFields(hello.fields);
     this.app.charts.setFields(hello.sampleFields, hello.stages);
-    this.app.setPages({ settings: this.settings.element, charts: this.app.charts.element, bodies: this.bodies.element }, false);
+    this.app.setPages({ settings: this.settings.element, charts: this.app.charts.element, bodies: this.bodies.element });
     this.app.shell.showHint(matchMedia('(pointer: coarse)').matches ? 'Drag a body to pull it · tap one to read its state'
       : 'Drag a body to pull it · T throws a ball · R resets · H for help');
     this.optionsChanged();

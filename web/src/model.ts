@@ -25,6 +25,23 @@ export interface BodyInfo {
   shape: ShapeInfo;
   material: number;
   mass: number | null;
+  /** touches nobody */
+  sensor?: boolean;
+  law?: LawInfo;
+}
+
+/** How a fixed body moves or its surface runs: vectors in W, that of the surface in the frame of the body. */
+export interface LawInfo {
+  /** [m/s] */
+  velocity?: [number, number, number];
+  /** [rad/s] */
+  spin?: [number, number, number];
+  /** largest displacement of what swings or follows a table [m] */
+  swing?: [number, number, number];
+  /** largest rotation vector of it [rad] */
+  turn?: [number, number, number];
+  /** [m/s] */
+  surface?: [number, number, number];
 }
 
 export interface MaterialInfo {
@@ -124,13 +141,14 @@ export interface ViewOptions {
   moves: boolean;
   bounds: boolean;
   joints: boolean;
+  laws: boolean;
   shadows: boolean;
   grid: boolean;
 }
 
 export const defaultOptions: ViewOptions = {
   colour: 'material', points: false, normals: false, impulses: false, friction: false, moves: false, bounds: false,
-  joints: true, shadows: true, grid: true,
+  joints: true, laws: true, shadows: true, grid: true,
 };
 
 /** The arrays that must come with the frames so that the options can be drawn. */

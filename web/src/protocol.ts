@@ -35,6 +35,8 @@ export interface FilmOrder {
   times: number[];
   camera: number[] | null;
   theme: 'light' | 'dark';
+  /** what is drawn over the bodies: names of switches */
+  layers: string[];
 }
 
 export interface WorldMessage {

@@ -42,7 +42,7 @@ export class Replay implements Mode {
     this.buildBars(names);
     app.charts.setFields(clips[0].header.sampleFields, clips[0].header.stages);
     const pages = clips.some((clip) => clip.samples.length > 0) ? { charts: app.charts.element } : {};
-    app.setPages({ ...pages, bodies: this.bodies.element }, true);
+    app.setPages({ ...pages, bodies: this.bodies.element }, { contacts: clips.every((clip) => clip.header.contacts) });
     app.setAbout([
       ['title', 'Scene', clips.map((clip) => clip.header.title).join(' | ')],
       ['bodies', 'Bodies', clips.map((clip) => clip.header.bodies.length).join(' | ')],

@@ -25,41 +25,47 @@ export const switches: Choice<Switch>[] = [
   { key: 'moves', label: 'Correction moves', hint: 'Of the penetration correction in the last step, drawn 100 times as long', shortcut: 'M', swatch: overlayHex.moves },
   { key: 'bounds', label: 'Bounding boxes', hint: 'As the broad phase sees them', shortcut: 'B', swatch: overlayHex.bounds },
   { key: 'joints', label: 'Joints', hint: 'Where bodies are joined, with rods, ropes and the axes of hinges and sliders', shortcut: 'J', swatch: overlayHex.joints },
+  { key: 'laws', label: 'Laws of motion', hint: 'Where bodies go, swing and turn by a law, and how belts run', shortcut: 'L', swatch: overlayHex.moves },
   { key: 'shadows', label: 'Shadows', hint: 'Of the sun', shortcut: 'S' },
   { key: 'grid', label: 'Grid', hint: 'The scale of its lines stands below the picture', shortcut: 'G' },
 ];
 
 /** What a recording holds. */
-const recorded = new Set<string>(['material', 'asleep', 'speed', 'joints', 'shadows', 'grid']);
+const recorded = ['material', 'asleep', 'speed', 'joints', 'laws', 'shadows', 'grid'];
+/** And what it holds besides if contacts were recorded. */
+const recordedContacts = ['points', 'normals', 'impulses', 'friction'];
 
 export class LayersPanel {
   readonly element = h('div', { class: 'layers' });
 
   constructor(private readonly options: ViewOptions, private readonly changed: () => void) {}
 
-  build(replay: boolean): void {
+  /** @param replay what kind of recording is shown; undefined = a live world */
+  build(replay?: { contacts: boolean }): void {
+    const held = new Set(replay?.contacts ? [...recorded, ...recordedContacts] : recorded);
+    const off = (key: string): boolean => replay !== undefined && !held.has(key);
     const colours = h('fieldset', { class: 'choices' }, h('legend', {}, 'Colour by'));
     for (const mode of colourModes) {
-      const input = h('input', { type: 'radio', name: 'colour', value: mode.key, id: `colour-${mode.key}`, disabled: replay && !recorded.has(mode.key) });
+      const input = h('input', { type: 'radio', name: 'colour', value: mode.key, id: `colour-${mode.key}`, disabled: off(mode.key) });
       input.checked = this.options.colour === mode.key;
       input.addEventListener('change', () => {
         this.options.colour = mode.key;
         this.changed();
       });
-      colours.append(this.row(input, mode, replay));
+      colours.append(this.row(input, mode));
     }
     const layers = h('fieldset', { class: 'choices' }, h('legend', {}, 'Show'));
     for (const layer of switches) {
-      const input = h('input', { type: 'checkbox', id: `layer-${layer.key}`, disabled: replay && !recorded.has(layer.key) });
+      const input = h('input', { type: 'checkbox', id: `layer-${layer.key}`, disabled: off(layer.key) });
       input.checked = this.options[layer.key];
       input.addEventListener('change', () => {
         this.options[layer.key] = input.checked;
         this.changed();
       });
-      layers.append(this.row(input, layer, replay));
+      layers.append(this.row(input, layer));
     }
     this.element.replaceChildren(colours, layers);
-    if (replay) this.element.append(h('p', { class: 'note' }, 'Greyed layers need a live world: recordings hold poses, velocities and sleep.'));
+    if (replay) this.element.append(h('p', { class: 'note' }, 'Greyed layers need a live world: recordings hold poses, velocities and sleep, and contacts on request.'));
   }
 
   /** @return false if the view has no such layer */
@@ -70,8 +76,8 @@ export class LayersPanel {
     (this.element.querySelector(`#${id}`) as HTMLInputElement | null)?.click();
   }
 
-  private row(input: HTMLInputElement, choice: Choice<string>, replay: boolean): HTMLElement {
-    const hint = replay && !recorded.has(choice.key) ? 'Recordings do not hold this' : choice.hint;
+  private row(input: HTMLInputElement, choice: Choice<string>): HTMLElement {
+    const hint = input.disabled ? 'The recording does not hold this' : choice.hint;
     return h('label', { class: input.disabled ? 'row off' : 'row', title: hint },
       input, h('span', {}, choice.swatch ? h('i', { class: 'swatch', style: `background:${choice.swatch}` }) : null, choice.label),
       choice.shortcut ? h('kbd', {}, choice.shortcut) : null);

@@ -4,7 +4,7 @@ import { asleep, fixed, present, type BodyInfo, type ColourMode, type Frame, typ
 import { InstancedBodies, MergedBodies, type BodyMesh } from './body_mesh';
 import { compoundGeometry, cornerGeometry, domeGeometry, hullGeometry, meshGeometry } from './solids';
 import {
-  asleepColour, awakeColour, categorical, fixedColour, noneColour, paint, qualitative, sequential, type Rgb,
+  asleepColour, awakeColour, categorical, fixedColour, noneColour, paint, paintOf, qualitative, sequential, type Rgb,
 } from './palette';
 import { Surfaces } from './surface';
 
@@ -30,7 +30,7 @@ export class Bodies {
     this.roster = roster;
     const groups = new Map<string, BodyInfo[]>();
     for (const body of roster.bodies.values()) {
-      if (body.shape.type === 'plane') continue;
+      if (body.shape.type === 'plane' || body.sensor) continue;
       const key = geometryKey(body);
       const members = groups.get(key);
       if (members) members.push(body); else groups.set(key, [body]);
@@ -79,7 +79,8 @@ export class Bodies {
 
   private paintMaterials(): void {
     if (this.paintedMode === 'material') return;
-    for (const drawn of this.meshes) drawn.bodies.forEach((body, i) => drawn.tint(i, paint[body.material % paint.length]));
+    const colours = this.roster!.materials.map(({ name }, i) => paintOf(name, i));
+    for (const drawn of this.meshes) drawn.bodies.forEach((body, i) => drawn.tint(i, colours[body.material] ?? paint[0]));
   }
 
   private makeInstanced(groups: Map<string, BodyInfo[]>, { materials }: Roster): BodyMesh[] {
@@ -159,25 +160,27 @@ function coarseness(count: number): Fineness {
   return count > 1000 ? [8, 2] : count > 100 ? [12, 4] : [24, 8];
 }
 
-function makeGeometry({ shape }: BodyInfo, [around, along]: Fineness): BufferGeometry {
-  const actual = (part: ShapeInfo): BufferGeometry => {
-    switch (part.type) {
-      case 'box': return new BoxGeometry(...part.size);
-      case 'sphere': return new SphereGeometry(part.radius, around, along).rotateX(Math.PI / 2);
-      case 'capsule':
-        return new CapsuleGeometry(part.radius, part.length, Math.ceil(along / 2), around).rotateX(Math.PI / 2);
-      case 'cylinder':
-        return new CylinderGeometry(part.radius, part.radius, part.length, 2 * around).rotateX(Math.PI / 2);
-      case 'hull': return hullGeometry(part.points);
-      case 'mesh': return meshGeometry(part.vertices, part.indices);
-      case 'compound': return compoundGeometry(part.parts, actual);
-      case 'plane': return new BufferGeometry();
-    }
-  };
+/** A shape as it is, in its own frame [m]. */
+export function solidGeometry(shape: ShapeInfo, [around, along]: Fineness): BufferGeometry {
   switch (shape.type) {
-    case 'box': return actual({ type: 'box', size: [2, 2, 2] });
-    case 'sphere': return domeGeometry(around, along / 2);
-    case 'cylinder': return actual({ type: 'cylinder', radius: 1, length: 2 });
-    default: return actual(shape);
+    case 'box': return new BoxGeometry(...shape.size);
+    case 'sphere': return new SphereGeometry(shape.radius, around, along).rotateX(Math.PI / 2);
+    case 'capsule':
+      return new CapsuleGeometry(shape.radius, shape.length, Math.ceil(along / 2), around).rotateX(Math.PI / 2);
+    case 'cylinder':
+      return new CylinderGeometry(shape.radius, shape.radius, shape.length, 2 * around).rotateX(Math.PI / 2);
+    case 'hull': return hullGeometry(shape.points);
+    case 'mesh': return meshGeometry(shape.vertices, shape.indices);
+    case 'compound': return compoundGeometry(shape.parts, (part) => solidGeometry(part, [around, along]));
+    case 'plane': return new BufferGeometry();
+  }
+}
+
+function makeGeometry({ shape }: BodyInfo, fine: Fineness): BufferGeometry {
+  switch (shape.type) {
+    case 'box': return solidGeometry({ type: 'box', size: [2, 2, 2] }, fine);
+    case 'sphere': return domeGeometry(fine[0], fine[1] / 2);
+    case 'cylinder': return solidGeometry({ type: 'cylinder', radius: 1, length: 2 }, fine);
+    default: return solidGeometry(shape, fine);
   }
 }

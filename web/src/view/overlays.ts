@@ -3,7 +3,8 @@ import {
   BufferAttribute, BufferGeometry, DynamicDrawUsage, Group, LineBasicMaterial, LineSegments, Matrix4, Points, PointsMaterial, Quaternion,
   Vector3,
 } from 'three';
-import { couples, distanceJoint, hasAxis, noSlot, present, ropeJoint, type BodyInfo, type Frame, type Joints, type ViewOptions } from '../model';
+import { couples, distanceJoint, hasAxis, noSlot, present, ropeJoint, type BodyInfo, type Frame, type Joints, type Roster, type ViewOptions } from '../model';
+import { drawLaws } from './laws';
 import { overlayHex } from './palette';
 import { boxOf } from './solids';
 
@@ -63,6 +64,7 @@ export class Overlays {
     bounds: new Segments(overlayHex.bounds, true),
     springs: new Segments(overlayHex.moves, false),
     joints: new Segments(overlayHex.joints, false),
+    laws: new Segments(overlayHex.moves, false),
     outline: new Segments(overlayHex.outline, false),
   };
   private readonly points = dots(overlayHex.points, 5);
@@ -75,7 +77,10 @@ export class Overlays {
   }
 
   /** @param size typical size of a body [m], for the length of the arrows */
-  update(frame: Frame, options: ViewOptions, size: number): void {
+  update(roster: Roster, frame: Frame, options: ViewOptions, size: number): void {
+    this.lines.laws.begin();
+    if (options.laws) drawLaws((...ends) => this.lines.laws.add(...ends), roster, frame, size);
+    this.lines.laws.end();
     this.drawContacts(frame, options, size);
     this.lines.moves.begin();
     if (options.moves && frame.moves) this.drawMoves(frame, size);

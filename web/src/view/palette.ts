@@ -13,6 +13,12 @@ export const sequentialHex = ['#2455a8', '#4874b4', '#6d8eb5', '#93a3a9', '#b6b1
 /** Of materials without a pattern of their own. */
 export const paintHex = ['#4477a8', '#d9a441', '#6db392', '#d19ed1', '#b5553a', '#79838f'];
 
+/** Of materials whose name says what they look like. */
+const namedPaintHex: [RegExp, string][] = [
+  [/earth|soil|mud/, '#8d8063'], [/sand|travertine|plaster/, '#cbb690'], [/grass|moss/, '#7d9460'], [/brick|clay/, '#a85f45'],
+  [/rubber|tar|coal/, '#3c4046'], [/snow|ice/, '#e6eef3'],
+];
+
 export const qualitative: Rgb[] = qualitativeHex.map(toLinear);
 const sequentialColours: Rgb[] = sequentialHex.map(toLinear);
 export const sequentialCss = `linear-gradient(90deg, ${sequentialHex.join(', ')})`;
@@ -39,6 +45,12 @@ export const overlayHex = {
 export function toLinear(hex: string): Rgb {
   const c = new Color(hex);
   return [c.r, c.g, c.b];
+}
+
+/** The colour of a material without a pattern. @param index of the material */
+export function paintOf(name: string, index: number): Rgb {
+  const named = namedPaintHex.find(([words]) => words.test(name.toLowerCase()));
+  return named ? toLinear(named[1]) : paint[index % paint.length];
 }
 
 /** A colour for a thing without order, such as a batch. */

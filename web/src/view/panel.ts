@@ -1,10 +1,12 @@
 /** One world in three dimensions: bodies, ground, overlays and the light that follows their extent. */
-import { DirectionalLight, HemisphereLight, Scene, Vector3, type Texture } from 'three';
+import { Box3, DirectionalLight, HemisphereLight, Scene, Vector3, type Texture } from 'three';
 import { defaultOptions, fixed, present, type Frame, type Roster, type ViewOptions } from '../model';
 import { Bodies } from './bodies';
 import { Ground } from './ground';
 import { Overlays } from './overlays';
+import { Sensors } from './sensors';
 import { sizeOf } from './solids';
+import { shownBox } from './vantage';
 
 export type Theme = 'light' | 'dark';
 
@@ -13,16 +15,18 @@ const looks = {
   dark: { back: '#14171b', ground: '#565d66', line: 1.6, sky: '#c3d2e6', earth: '#2b2723', hemisphere: 1.0, sun: 2.4, shade: 0.82 },
 };
 
-export interface Extent { centre: Vector3; radius: number; size: number }
+/** Of the bodies that can move; `box` is what a picture of them shows. */
+export interface Extent { centre: Vector3; radius: number; size: number; box: Box3 }
 
 export class WorldPanel {
   readonly scene = new Scene();
   readonly bodies = new Bodies();
   readonly overlays = new Overlays();
+  readonly sensors = new Sensors();
   readonly ground = new Ground();
   roster: Roster | null = null;
   frame: Frame | null = null;
-  extent: Extent = { centre: new Vector3(), radius: 1, size: 0.1 };
+  extent: Extent = { centre: new Vector3(), radius: 1, size: 0.1, box: boxAbout(new Vector3(), 0.6) };
   private selected: number | null = null;
   private options: ViewOptions = defaultOptions;
   private readonly sun = new DirectionalLight('#fff4e4', 2.5);
@@ -33,7 +37,7 @@ export class WorldPanel {
     this.sun.shadow.bias = -0.0006;
     this.sun.shadow.normalBias = 0.006;
     this.sun.shadow.radius = 2;
-    this.scene.add(this.sun, this.sun.target, this.sky, this.ground.group, this.bodies.group, this.overlays.group);
+    this.scene.add(this.sun, this.sun.target, this.sky, this.ground.group, this.bodies.group, this.sensors.group, this.overlays.group);
     this.setTheme('light');
   }
 
@@ -67,6 +71,7 @@ export class WorldPanel {
     this.roster = roster;
     this.frame = null;
     this.bodies.setRoster(roster);
+    this.sensors.setRoster(roster);
   }
 
   /** Good materials, or ones for software rendering. */
@@ -94,7 +99,8 @@ export class WorldPanel {
     this.options = options;
     if (first) this.extent = extentOf(this.roster, frame);
     this.bodies.update(frame, options.colour);
-    this.overlays.update(frame, options, this.extent.size);
+    this.sensors.update(frame);
+    this.overlays.update(this.roster, frame, options, this.extent.size);
     this.overlays.outline(frame, this.selected === null ? undefined : this.roster.bodies.get(this.selected));
     const { centre, radius } = this.extent;
     this.ground.setExtent(centre, radius, this.gridStep);
@@ -134,17 +140,17 @@ const shownPart = 0.96;
 /** Where the bodies are that can move (or, without any, the fixed ones), and how large one of them is. */
 export function extentOf(roster: Roster, frame: Frame): Extent {
   for (const wanted of [present, present | fixed]) {
-    const points: { p: Vector3; size: number; far: number }[] = [];
+    const points: { slot: number; p: Vector3; size: number; far: number }[] = [];
     for (const { shape, slot } of roster.bodies.values()) {
       if (shape.type === 'plane' || slot >= frame.slots || (frame.flags[slot] & (present | fixed)) !== wanted) continue;
       const size = sizeOf(shape);
-      points.push({ p: new Vector3().fromArray(frame.position, 3 * slot), size, far: 0 });
+      points.push({ slot, p: new Vector3().fromArray(frame.position, 3 * slot), size, far: 0 });
     }
     if (points.length === 0) continue;
     const middle = new Vector3(...[0, 1, 2].map((k) => median(points.map((point) => point.p.getComponent(k)))));
     for (const point of points) point.far = point.p.distanceTo(middle);
     points.sort((a, b) => a.far - b.far);
-    const shown = points.length < 25 ? points : points.slice(0, Math.ceil(shownPart * points.length));
+    const shown = points.length < 25 ? points : mostOf(points);
     const lower = new Vector3(Infinity, Infinity, Infinity), upper = new Vector3(-Infinity, -Infinity, -Infinity);
     let sizes = 0;
     for (const { p, size } of shown) {
@@ -154,9 +160,23 @@ export function extentOf(roster: Roster, frame: Frame): Extent {
     }
     include(frame.joints?.points, lower, upper, lower.distanceTo(upper));
     const centre = lower.clone().add(upper).multiplyScalar(0.5);
-    return { centre, radius: Math.max(0.5 * lower.distanceTo(upper), 0.1), size: sizes / shown.length };
+    const radius = Math.max(0.5 * lower.distanceTo(upper), 0.1);
+    return { centre, radius, size: sizes / shown.length, box: shownBox(roster, frame, shown.map((point) => point.slot)) };
   }
-  return { centre: new Vector3(0, 0, 0.5), radius: 2, size: 0.2 };
+  const centre = new Vector3(0, 0, 0.5);
+  return { centre, radius: 2, size: 0.2, box: boxAbout(centre, 1.2) };
+}
+
+/** Those in the middle, and of the others such as are large beside them, like a machine at a heap. @param points by distance */
+function mostOf<T extends { size: number; far: number }>(points: T[]): T[] {
+  const count = Math.ceil(shownPart * points.length);
+  const large = 3 * median(points.map((point) => point.size));
+  const reach = 8 * points[count - 1].far;
+  return points.filter((point, i) => i < count || (point.size > large && point.far < reach));
+}
+
+function boxAbout(centre: Vector3, half: number): Box3 {
+  return new Box3(centre.clone().subScalar(half), centre.clone().addScalar(half));
 }
 
 /** Widens a box by the points of the joints, apart from such that are far away. */

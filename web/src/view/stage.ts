@@ -5,6 +5,7 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { WorldPanel, type Theme } from './panel';
+import { bestDirection, fittingDistance } from './vantage';
 
 export type Quality = 'high' | 'medium' | 'low' | 'lowest';
 
@@ -108,14 +109,16 @@ export class Stage {
     this.camera.updateProjectionMatrix();
   }
 
-  /** Looks at the first panel's extent from the front, a little from above. @param margin 1 = as large as possible */
-  frameAll(margin = 1.3): void {
-    const { centre, radius } = this.panels[0].extent;
-    const wide = this.camera.aspect > 1 ? 1 : this.camera.aspect;
-    const distance = (margin * radius) / Math.sin((this.camera.fov * Math.PI) / 360) / Math.min(1, wide * 1.15);
-    const target = centre.clone();
+  /** Looks at what the first panel shows from the front, as far from above as is needed. @param margin 1 = as large as possible */
+  frameAll(margin = 1.25): void {
+    const { roster, frame, extent } = this.panels[0];
+    const { box, radius } = extent;
+    const tangent = Math.tan((this.camera.fov * Math.PI) / 360);
+    const towards = bestDirection(roster, frame, 20 * radius);
+    const distance = margin * fittingDistance(box, towards, tangent, this.camera.aspect);
+    const target = box.getCenter(new Vector3());
     this.controls.target.copy(target);
-    this.camera.position.set(-0.52, -0.86, 0.42).normalize().multiplyScalar(distance).add(target);
+    this.camera.position.copy(towards).multiplyScalar(distance).add(target);
     this.camera.near = Math.max(0.005, distance / 400);
     this.camera.far = distance * 60;
     this.camera.updateProjectionMatrix();
