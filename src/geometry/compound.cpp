@@ -44,14 +44,41 @@ void validatePart(const CompoundPart& part, std::size_t index) {
     }
 }
 
+/// What a compound stands for has all of the mass.
+void validateSolid(const Compound& compound) {
+    const SolidProperties& solid = *compound.solid;
+    if (!(solid.volume > 0 && std::isfinite(solid.volume))) {
+        throw InputError(
+            fmt::format("the solid of a compound has the volume {} m³; it must be finite and above 0", solid.volume));
+    }
+    const Vec3& c = solid.centre;
+    if (!(c.allFinite() && c.cwiseAbs().maxCoeff() <= largest_dimension)) {
+        throw InputError(
+            fmt::format("the solid of a compound has its centre at ({}, {}, {}) m; it must be finite and within ±{} m",
+                        c.x(), c.y(), c.z(), largest_dimension));
+    }
+    requireInertia(solid.inertia, "m⁵");
+    for (std::size_t i = 0; i < compound.parts.size(); ++i) {
+        if (!compound.parts[i].mass && !compound.parts[i].density) continue;
+        throw InputError(fmt::format(
+            "part {} of a compound has a mass or density, and the compound the mass of a solid; leave one out", i));
+    }
+}
+
 void validate(const Compound& compound) {
     if (compound.parts.empty()) {
         throw InputError("a compound without parts has no mass; give it at least one part");
     }
     for (std::size_t i = 0; i < compound.parts.size(); ++i) validatePart(compound.parts[i], i);
+    if (compound.solid) validateSolid(compound);
 }
 
 UnitMassProperties massProperties(const Compound& compound) {
+    if (compound.solid) {
+        const auto& [volume, centre, inertia] = *compound.solid;
+        const PrincipalInertia principal = principalInertia(0.5 * (inertia + inertia.transpose()));
+        return {volume, principal.moments, centre, principal.axes};
+    }
     std::vector<PartMass> parts;
     for (const CompoundPart& part : compound.parts) {
         const UnitMassProperties unit = unitMassProperties(part.shape);

@@ -31,6 +31,8 @@ void readJoints(const JsonNode& node, SceneReading& reading);
 /// @throws InputError
 Shape readShape(const JsonNode& node);
 Quat readOrientation(const JsonNode& node);
+/// Three moments, or these and the products xy, xz and yz. @param unit in the message
+Mat3 readInertia(const JsonNode& node, std::string_view unit);
 std::vector<double> readNumbers(const JsonNode& node);
 /// How properties of a pair depend on the velocity at a contact.
 PairLaw readPairLaw(const JsonNode& node);

@@ -90,6 +90,16 @@ std::string objectText(const Shape& shape) {
     return fmt::format(R"({{"type":{}}})", std::visit([](const auto& s) { return shapeText(s); }, shape));
 }
 
+/// Three moments, and the three products if there are any.
+std::string inertiaText(const Mat3& inertia) {
+    std::string out = fmt::format("[{},{},{}", number(inertia(0, 0)), number(inertia(1, 1)), number(inertia(2, 2)));
+    const Vec3 products(inertia(0, 1), inertia(0, 2), inertia(1, 2));
+    if (!products.isZero(0)) {
+        out += fmt::format(",{},{},{}", number(products.x()), number(products.y()), number(products.z()));
+    }
+    return out + "]";
+}
+
 std::string shapeText(const Compound& s) {
     std::string out = R"("compound","parts":[)";
     for (const CompoundPart& part : s.parts) {
@@ -101,17 +111,12 @@ std::string shapeText(const Compound& s) {
         if (part.density) out += fmt::format(R"(,"density":{})", number(*part.density));
         out += '}';
     }
-    return out + "]";
-}
-
-/// Three moments, and the three products if there are any.
-std::string inertiaText(const Mat3& inertia) {
-    std::string out = fmt::format("[{},{},{}", number(inertia(0, 0)), number(inertia(1, 1)), number(inertia(2, 2)));
-    const Vec3 products(inertia(0, 1), inertia(0, 2), inertia(1, 2));
-    if (!products.isZero(0)) {
-        out += fmt::format(",{},{},{}", number(products.x()), number(products.y()), number(products.z()));
+    out += ']';
+    if (s.solid) {
+        out += fmt::format(R"(,"solid":{{"volume":{},"centre_of_mass":{},"inertia":{}}})", number(s.solid->volume),
+                           vector(s.solid->centre), inertiaText(s.solid->inertia));
     }
-    return out + "]";
+    return out;
 }
 
 std::string namesText(const std::vector<std::string>& names) {
