@@ -64,6 +64,7 @@ struct HalfSpace {
 };
 
 struct CompoundPart;
+class BoundsTree;
 
 /// Volume, centre and inertia of a solid of density 1, in the frame of its shape.
 struct SolidProperties {
@@ -78,6 +79,8 @@ struct Compound {
     /// What the parts stand for, such as a concave mesh (decompose()): its mass, centre and inertia count in place of
     /// theirs, and none of them has a mass or density of its own.
     std::optional<SolidProperties> solid{};
+    /// Over the parts, for the engine itself: made anew wherever it takes a compound.
+    std::shared_ptr<const BoundsTree> tree{};
 };
 
 struct SurfaceData;

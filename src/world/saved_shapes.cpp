@@ -168,6 +168,7 @@ void saveShape(const Shape& shape, ByteWriter& out) {
 Shape loadShape(ByteReader& in) {
     Shape shape = load(in, Nesting::allowed);
     sound(in, [&] { validateShape(shape); });
+    indexParts(shape);
     return shape;
 }
 
