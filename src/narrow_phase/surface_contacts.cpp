@@ -119,7 +119,8 @@ std::vector<SurfaceManifold>& SurfaceMeeting::find() {
     for (const SurfaceManifold& edge : edges_) {
         if (!joinFace(edge.manifold)) found_.push_back(edge);
     }
-    if (found_.empty()) meetDeepest();
+    const auto touches = [](const SurfaceManifold& m) { return m.deepest() <= 0; };
+    if (std::ranges::none_of(found_, touches)) meetDeepest();
     dropBehind();
     return found_;
 }
@@ -288,7 +289,10 @@ void SurfaceMeeting::meetBall(const Sphere& ball, std::span<const std::uint32_t>
 void SurfaceMeeting::meetDeepest() {
     ManifoldPoint deepest{Vec3::Zero(), -deep_part * convex_.smallest(), 0};
     bool any = false;
+    const Bounds touching = near_.grown(-margin_);
     for (const std::uint32_t triangle : triangles_) {
+        const auto [a, b, c] = surface_.corners(triangle);
+        if (!touching.overlaps({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)})) continue;
         const SurfaceFace face = turnedTo(surface_, surface_.face_of[triangle], centre_);
         const Manifold contact = contactWith(face, triangle);
         for (std::size_t i = 0; i < contact.size; ++i) {
@@ -351,7 +355,7 @@ void SurfaceMeeting::dropBehind() {
     const bool front = std::ranges::any_of(found_, touches);
     double shallowest = -std::numeric_limits<double>::infinity();
     for (const SurfaceManifold& m : found_) {
-        if (m.behind) shallowest = std::max(shallowest, m.deepest());
+        if (m.behind && m.deepest() <= 0) shallowest = std::max(shallowest, m.deepest());
     }
     std::erase_if(found_, [&](const SurfaceManifold& m) { return m.behind && (front || m.deepest() < shallowest); });
 }

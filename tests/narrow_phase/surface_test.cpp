@@ -54,8 +54,18 @@ TEST(Surfaces, AreMetByWhateverIsDeepInThem) {
         for (int i = 0; i < 2000; ++i) {
             Vec3 at = random.vector(4);
             at.z() = height(at.x(), at.y()) + random.uniform(-0.02, 0.06);
-            const auto found = on(rough, shape, {at, random.orientation()});
+            const Quat turn = random.orientation();
+            const auto found = on(rough, shape, {at, turn});
             EXPECT_FALSE(found.empty()) << name << " " << i;
+            // What is looked for farther away hides none of it.
+            const auto ahead = on(rough, shape, {at, turn}, 0.3);
+            EXPECT_TRUE(std::ranges::any_of(ahead,
+                                            [](const Manifold& m) {
+                                                return std::any_of(
+                                                    m.points.begin(), m.points.begin() + m.size,
+                                                    [](const ManifoldPoint& p) { return p.distance <= 0; });
+                                            }))
+                << name << " " << i;
             double upwards = -1;
             for (const Manifold& m : found) upwards = std::max(upwards, m.normal.z());
             EXPECT_GT(upwards, 0) << name << " " << i;
