@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 
+#include "cairn/decompose.h"
 #include "cairn/recording.h"
 #include "cli/output.h"
 #include "cli/scene_argument.h"
@@ -34,9 +35,22 @@ std::string describeBodies(const Scene& scene) {
     return text;
 }
 
+/// How well convex parts stand for concave solids.
+std::string describeSolids(const Scene& scene) {
+    std::string text;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const auto* compound = std::get_if<Compound>(&scene.bodies[i].shape);
+        if (compound == nullptr || !compound->solid) continue;
+        text += line("solid", fmt::format("body {}: {} parts, volume {:.6g} m³, error {:.2g} of it", i,
+                                          compound->parts.size(), compound->solid->volume, volumeErrorOf(*compound)));
+    }
+    return text;
+}
+
 std::string describeScene(const Scene& scene) {
     std::string text = line("scene", scene.name);
     text += line("bodies", describeBodies(scene));
+    text += describeSolids(scene);
     text += line("duration", fmt::format("{} s", scene.duration));
     text += line("gravity", fmt::format("{} {} {} m/s²", scene.gravity.x(), scene.gravity.y(), scene.gravity.z()));
     for (const Material& material : scene.materials) {

@@ -3,6 +3,7 @@
 
 #include "cairn/bodies.h"
 #include "cairn/checkpoint.h"
+#include "cairn/decompose.h"
 #include "cairn/events.h"
 #include "cairn/filter.h"
 #include "cairn/material.h"

@@ -64,10 +64,23 @@ struct HalfSpace {
 };
 
 struct CompoundPart;
+class BoundsTree;
+
+/// Volume, centre and inertia of a solid of density 1, in the frame of its shape.
+struct SolidProperties {
+    double volume = 0;            ///< [m³], > 0
+    Vec3 centre = Vec3::Zero();   ///< of mass [m]
+    Mat3 inertia = Mat3::Zero();  ///< about the centre [m⁵], symmetric, that of a body
+};
 
 /// Several shapes that move as one body. Parts may touch and overlap; where they overlap each counts with its own mass.
 struct Compound {
     std::vector<CompoundPart> parts;  ///< at least one
+    /// What the parts stand for, such as a concave mesh (decompose()): its mass, centre and inertia count in place of
+    /// theirs, and none of them has a mass or density of its own.
+    std::optional<SolidProperties> solid{};
+    /// Over the parts, for the engine itself: made anew wherever it takes a compound.
+    std::shared_ptr<const BoundsTree> tree{};
 };
 
 struct SurfaceData;

@@ -446,6 +446,20 @@ def read_height_field(file: FilePath, spacing: ArrayLike, scale: float) -> Heigh
 def parse_height_field(bytes: bytes, source: str, spacing: ArrayLike, scale: float) -> HeightField:
     """The same of a file's content."""
 
+class SolidProperties(_Record):
+    """Volume, centre and inertia of a solid of density 1."""
+
+    def __init__(self, volume: float, centre: ArrayLike, inertia: ArrayLike) -> None: ...
+    @property
+    def volume(self) -> float:
+        """[m³], > 0"""
+    @property
+    def centre(self) -> Floats:
+        """Of mass [m, frame of the shape], shape (3,)."""
+    @property
+    def inertia(self) -> Floats:
+        """About the centre [m⁵], shape (3, 3)."""
+
 class CompoundPart(_Record):
     """A shape of a compound."""
 
@@ -472,10 +486,64 @@ class CompoundPart(_Record):
 class Compound(_Record):
     """Several shapes that move as one body."""
 
-    def __init__(self, parts: Sequence[CompoundPart]) -> None: ...
+    def __init__(self, parts: Sequence[CompoundPart], solid: Optional[SolidProperties] = ...) -> None: ...
     @property
     def parts(self) -> tuple[CompoundPart, ...]:
         """At least one."""
+    @property
+    def solid(self) -> Optional[SolidProperties]:
+        """What the parts stand for, whose mass counts in place of theirs."""
+
+class DecompositionOptions(_Record):
+    """How finely a solid is divided."""
+
+    def __init__(self, largest_error: float = ..., most_parts: int = ..., hull_if_open: bool = ...) -> None: ...
+    @property
+    def largest_error(self) -> float:
+        """By how much the parts together may exceed the volume of the mesh, as a part of it; 0 to 1."""
+    @property
+    def most_parts(self) -> int:
+        """Which comes before the error; 1 to 1000."""
+    @property
+    def hull_if_open(self) -> bool:
+        """Takes the hull of a mesh that is not watertight, which is refused otherwise."""
+
+class Decomposition(_Record):
+    """A solid in convex parts, and how well they fit."""
+
+    def __init__(
+        self,
+        compound: Compound,
+        volume: float = ...,
+        parts_volume: float = ...,
+        error: float = ...,
+        turned: bool = ...,
+        took_hull: bool = ...,
+    ) -> None: ...
+    @property
+    def compound(self) -> Compound:
+        """Of hulls, in the frame of the mesh, with the mass, centre and inertia of the mesh."""
+    @property
+    def volume(self) -> float:
+        """Of the mesh [m³]; where it is taken as its hull, that of the hull."""
+    @property
+    def parts_volume(self) -> float:
+        """Of all parts; where two overlap it counts twice [m³]."""
+    @property
+    def error(self) -> float:
+        """parts_volume beyond the volume, as a part of it."""
+    @property
+    def turned(self) -> bool:
+        """The mesh was inside out: all of its triangles were turned."""
+    @property
+    def took_hull(self) -> bool:
+        """The mesh is not watertight."""
+
+def decompose(mesh: Mesh, options: DecompositionOptions = ...) -> Decomposition:
+    """Divides the solid inside a mesh into convex parts, which leave out nothing of it."""
+
+def volume_error_of(compound: Compound) -> float:
+    """By how much the volumes of all parts exceed that of the solid they stand for, as a part of it."""
 
 class Material(_Record):
     """What a body is made of."""

@@ -83,6 +83,11 @@ void bindShapes(py::module_& module) {
         .field("offset", &HalfSpace::offset, "Distance of the plane from the origin along the normal [m].")
         .finish();
     bindHull(module);
+    Record<SolidProperties>(module, "SolidProperties", "Volume, centre and inertia of a solid of density 1.")
+        .field("volume", &SolidProperties::volume, "[m³], > 0")
+        .field("centre", &SolidProperties::centre, "Of mass [m, frame of the shape], shape (3,).")
+        .field("inertia", &SolidProperties::inertia, "About the centre [m⁵], shape (3, 3).")
+        .finish(3);
     Record<CompoundPart> part(module, "CompoundPart", "A shape of a compound.");
     Record<Compound> compound(module, "Compound", "Several shapes that move as one body.");
     part.field("shape", &CompoundPart::shape, "Any solid but compounds.")
@@ -91,7 +96,9 @@ void bindShapes(py::module_& module) {
         .field("density", &CompoundPart::density,
                "In place of a mass [kg/m³], > 0; without either that of the material.")
         .finish(1);
-    compound.field("parts", &Compound::parts, "At least one.").finish(1);
+    compound.field("parts", &Compound::parts, "At least one.")
+        .field("solid", &Compound::solid, "What the parts stand for, whose mass counts in place of theirs.")
+        .finish(1);
 }
 
 void bindMaterials(py::module_& module) {

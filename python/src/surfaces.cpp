@@ -99,12 +99,38 @@ void bindHeightField(py::module_& module) {
     finishRecord(field, {"heights", "spacing"});
 }
 
+void bindDecomposition(py::module_& module) {
+    using O = DecompositionOptions;
+    Record<O>(module, "DecompositionOptions", "How finely a solid is divided.")
+        .field("largest_error", &O::largest_error,
+               "By how much the parts together may exceed the volume of the mesh, as a part of it; 0 to 1.")
+        .field("most_parts", &O::most_parts, "Which comes before the error; 1 to 1000.")
+        .field("hull_if_open", &O::hull_if_open,
+               "Takes the hull of a mesh that is not watertight, which is refused otherwise.")
+        .finish();
+    using D = Decomposition;
+    Record<D>(module, "Decomposition", "A solid in convex parts, and how well they fit.")
+        .field("compound", &D::compound,
+               "Of hulls, in the frame of the mesh, with the mass, centre and inertia of the mesh.")
+        .field("volume", &D::volume, "Of the mesh [m³]; where it is taken as its hull, that of the hull.")
+        .field("parts_volume", &D::parts_volume, "Of all parts; where two overlap it counts twice [m³].")
+        .field("error", &D::error, "parts_volume beyond the volume, as a part of it.")
+        .field("turned", &D::turned, "The mesh was inside out: all of its triangles were turned.")
+        .field("took_hull", &D::took_hull, "The mesh is not watertight.")
+        .finish(1);
+    module.def("decompose", &decompose, py::arg("mesh"), py::arg("options") = O{},
+               "Divides the solid inside a mesh into convex parts, which leave out nothing of it.");
+    module.def("volume_error_of", &volumeErrorOf, py::arg("compound"),
+               "By how much the volumes of all parts exceed that of the solid they stand for, as a part of it.");
+}
+
 }  // namespace
 
 void bindSurfaces(py::module_& module) {
     bindRepairs(module);
     bindMesh(module);
     bindHeightField(module);
+    bindDecomposition(module);
     module.def("read_mesh", &readMesh, py::arg("file"), py::arg("sides") = "one", py::arg("scale") = Vec3(1, 1, 1),
                "Reads a mesh from an STL, OBJ or PLY file.");
     module.def(

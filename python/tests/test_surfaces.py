@@ -65,3 +65,26 @@ def test_a_ball_rests_on_a_mesh() -> None:
     assert world.pose(ball).position[2] == pytest.approx(0.1, abs=2e-3)
     hit = world.cast_ray(cairn.Ray([0.5, 0.3, 1], [0, 0, -1]))
     assert hit is not None and hit.distance == pytest.approx(1) and hit.part == 0
+
+
+def test_a_concave_solid_in_convex_parts() -> None:
+    # A prism over an angle of two legs, each 2 m long and 1 m thick.
+    outline = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]
+    vertices = [[x, y, z] for z in (0, 1) for x, y in outline]
+    top = [[6, 7, 8], [6, 8, 9], [6, 9, 11], [9, 10, 11]]
+    bottom = [[c - 6, b - 6, a - 6] for a, b, c in top]
+    sides = [t for i in range(6) for t in ([i, (i + 1) % 6, (i + 1) % 6 + 6], [i, (i + 1) % 6 + 6, i + 6])]
+    mesh = cairn.Mesh(vertices, top + bottom + sides)
+    found = cairn.decompose(mesh)
+    assert len(found.compound.parts) == 2 and abs(found.error) < 1e-12 and not found.turned
+    assert found.compound.solid is not None
+    assert found.compound.solid.volume == pytest.approx(3)
+    assert np.allclose(found.compound.solid.centre, [5 / 6, 5 / 6, 0.5])
+    coarse = cairn.decompose(mesh, cairn.DecompositionOptions(most_parts=1))
+    assert coarse.error == pytest.approx(0.5 / 3)
+    assert cairn.volume_error_of(coarse.compound) == pytest.approx(0.5 / 3)
+    with pytest.raises(cairn.InputError, match="3 open edges around 1 hole"):
+        cairn.decompose(cairn.Mesh(vertices, (top + bottom + sides)[1:]))
+    world = cairn.World()
+    oak = world.add_material(name="oak", density=800)
+    assert world.mass(world.add_body(shape=coarse.compound, material=oak)) == pytest.approx(2400)

@@ -20,7 +20,7 @@ struct Solid {
 
 Solid solidOf(const Shape& shape, double density) {
     const auto* compound = std::get_if<Compound>(&shape);
-    if (compound == nullptr) {
+    if (compound == nullptr || compound->solid) {
         const UnitMassProperties unit = unitMassProperties(shape);
         return {unit, density * unit.volume};
     }
@@ -31,23 +31,6 @@ Solid solidOf(const Shape& shape, double density) {
     }
     const UnitMassProperties all = combine(parts);
     return {all, all.volume};
-}
-
-/// Moments of a body are positive, and none is larger than the sum of the others. @throws InputError
-void checkInertia(const Mat3& inertia) {
-    const auto refuse = [&](std::string_view why) {
-        throw InputError(fmt::format("inertia with the moments {}, {}, {} and the products {}, {}, {} kg·m² {}",
-                                     inertia(0, 0), inertia(1, 1), inertia(2, 2), inertia(0, 1), inertia(0, 2),
-                                     inertia(1, 2), why));
-    };
-    if (!inertia.allFinite()) refuse("is not finite");
-    const double scale = inertia.cwiseAbs().maxCoeff();
-    if (!((inertia - inertia.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * scale)) refuse("must be symmetric");
-    const Vec3 moments = principalInertia(inertia).moments;
-    if (!(moments.minCoeff() > 0)) refuse("must have principal moments above 0");
-    if (!(2 * moments.maxCoeff() <= moments.sum() * (1 + 1e-9))) {
-        refuse("is that of no body: no principal moment may be larger than the sum of the other two");
-    }
 }
 
 }  // namespace
@@ -65,7 +48,7 @@ BodyMass bodyMass(const Shape& shape, double density, const GivenMass& given) {
         result.body_in_shape.position = c;
     }
     if (given.inertia) {
-        checkInertia(*given.inertia);
+        requireInertia(*given.inertia, "kg·m²");
         const PrincipalInertia principal = principalInertia(0.5 * (*given.inertia + given.inertia->transpose()));
         result.inertia = principal.moments;
         result.body_in_shape.orientation = principal.axes;

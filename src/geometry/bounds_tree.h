@@ -42,6 +42,10 @@ class BoundsTree {
     /// Calls visit(item) for every item whose bounds overlap a box.
     template <class Visit>
     void forEachOverlapping(const Bounds& box, const Visit& visit) const;
+    /// Calls visit(item) for every item whose bounds, and all those around it, meet a condition; false for bounds that
+    /// hold nothing wanted. @param meets (bounds) → bool, may depend on what was visited
+    template <class Meets, class Visit>
+    void forEachWhere(const Meets& meets, const Visit& visit) const;
     /// Calls visit(item) for every item whose bounds a ray meets within its reach, roughly from near to far.
     /// @param reach [m]; may be lowered by visit: bounds beyond it are left out, those at it are not
     template <class Visit>
@@ -97,6 +101,11 @@ inline double BoundsTree::entryOf(const Bounds& bounds, const TreeRay& ray, cons
 
 template <class Visit>
 void BoundsTree::forEachOverlapping(const Bounds& box, const Visit& visit) const {
+    forEachWhere([&box](const Bounds& bounds) { return bounds.overlaps(box); }, visit);
+}
+
+template <class Meets, class Visit>
+void BoundsTree::forEachWhere(const Meets& meets, const Visit& visit) const {
     if (nodes_.empty()) return;
     std::array<std::uint32_t, most_waiting> waiting;
     std::size_t count = 0;
@@ -105,7 +114,7 @@ void BoundsTree::forEachOverlapping(const Bounds& box, const Visit& visit) const
         const Node& node = nodes_[waiting[--count]];
         for (std::size_t side = 0; side < 2; ++side) {
             const std::uint32_t child = node.child[side];
-            if (child == none || !node.bounds[side].overlaps(box)) continue;
+            if (child == none || !meets(node.bounds[side])) continue;
             if ((child & leaf) != 0) {
                 visit(child & ~leaf);
             } else {

@@ -11,6 +11,7 @@
 #include "geometry/hull_data.h"
 #include "geometry/principal_axes.h"
 #include "geometry/shape_entry.h"
+#include "geometry/tetrahedron_sums.h"
 
 namespace cairn {
 
@@ -165,33 +166,20 @@ void addFaces(HullData& hull, const std::vector<Loop>& loops) {
     }
 }
 
-/// Sums over tetrahedra between a point inside and triangles of the faces. With edges a, b, c from that point a
-/// tetrahedron has the volume det/6 with det = a·(b × c), its first moment det/24·(a + b + c) and its second one
-/// det/120·(aaᵀ + bbᵀ + ccᵀ + ssᵀ) with s = a + b + c.
 void addMass(HullData& hull) {
     Vec3 inside = Vec3::Zero();
     for (const Vec3& corner : hull.corners) inside += corner;
     inside /= static_cast<double>(hull.corners.size());
-    double volume = 0;
-    Vec3 first = Vec3::Zero();
-    Mat3 second = Mat3::Zero();
+    TetrahedronSums sums;
     for (const HullFace& face : hull.faces) {
         const auto loop = hull.loop(face);
         const Vec3 a = hull.corners[loop[0]] - inside;
         for (std::size_t i = 2; i < loop.size(); ++i) {
-            const Vec3 b = hull.corners[loop[i - 1]] - inside;
-            const Vec3 c = hull.corners[loop[i]] - inside;
-            const double det = a.dot(b.cross(c));
-            const Vec3 s = a + b + c;
-            volume += det / 6;
-            first += det / 24 * s;
-            second += det / 120 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + s * s.transpose());
+            sums.add(a, hull.corners[loop[i - 1]] - inside, hull.corners[loop[i]] - inside);
         }
     }
-    const Vec3 centre = first / volume;
-    second -= volume * centre * centre.transpose();
-    const PrincipalInertia inertia = principalInertia(second.trace() * Mat3::Identity() - second);
-    hull.mass = {volume, inertia.moments, inside + centre, inertia.axes};
+    const PrincipalInertia inertia = principalInertia(sums.inertia());
+    hull.mass = {sums.volume(), inertia.moments, inside + sums.centre(), inertia.axes};
 }
 
 }  // namespace

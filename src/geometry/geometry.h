@@ -56,6 +56,11 @@ struct LocalHit {
 /// "sphere", "box", "capsule", "plane", "cylinder", "hull", "compound", "mesh", "height_field": the name in scene
 /// files.
 std::string_view shapeName(const Shape& shape);
+/// Gives a compound of many parts a tree over them; takes that of any other away. @pre validateShape(shape), with unit
+/// quaternions of parts
+void indexParts(Shape& shape);
+/// Bounds that hold also what rounding makes of them, so that who asks them first finds all that who does not finds.
+Bounds widened(const Bounds& bounds);
 /// @throws InputError if a dimension is not finite or not positive; the text names it
 void validateShape(const Shape& shape);
 /// True if the shape has no bounds.

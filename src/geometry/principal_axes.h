@@ -1,6 +1,8 @@
 /// @file The principal axes of an inertia.
 #pragma once
 
+#include <string_view>
+
 #include "cairn/types.h"
 
 namespace cairn {
@@ -13,5 +15,9 @@ struct PrincipalInertia {
 
 /// @param inertia symmetric; one that is diagonal but for rounding keeps its axes
 PrincipalInertia principalInertia(const Mat3& inertia);
+
+/// Moments of a body are positive, and none is larger than the sum of the others.
+/// @param unit in the message @throws InputError unless the inertia is symmetric and that of a body
+void requireInertia(const Mat3& inertia, std::string_view unit);
 
 }  // namespace cairn

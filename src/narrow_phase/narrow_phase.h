@@ -9,6 +9,7 @@
 
 #include "cairn/shape.h"
 #include "geometry/geometry.h"
+#include "narrow_phase/near_parts.h"
 #include "parallel/function_ref.h"
 
 namespace cairn {
@@ -66,14 +67,20 @@ void forEachManifold(const Shape& shape_a, const Pose& pose_a, const Shape& shap
                      Manifold& manifold, const Use& use) {
     if (std::holds_alternative<Compound>(shape_a)) {
         const Bounds other = boundsOf(shape_b, pose_b);
-        for (const CompoundPart& part : std::get_if<Compound>(&shape_a)->parts) {
+        const Compound& compound = *std::get_if<Compound>(&shape_a);
+        const NearParts near(compound, pose_a, shape_b, pose_b, other, margin);
+        for (std::size_t i = 0; i < near.count(); ++i) {
+            const CompoundPart& part = compound.parts[near[i]];
             const Pose pose = pose_a.toOuter(part.pose);
             if (!boundsOf(part.shape, pose).grown(margin).overlaps(other)) continue;
             forEachManifold(part.shape, pose, shape_b, pose_b, margin, manifold, use);
         }
     } else if (std::holds_alternative<Compound>(shape_b)) {
         const Bounds other = boundsOf(shape_a, pose_a).grown(margin);
-        for (const CompoundPart& part : std::get_if<Compound>(&shape_b)->parts) {
+        const Compound& compound = *std::get_if<Compound>(&shape_b);
+        const NearParts near(compound, pose_b, shape_a, pose_a, other, margin);
+        for (std::size_t i = 0; i < near.count(); ++i) {
+            const CompoundPart& part = compound.parts[near[i]];
             const Pose pose = pose_b.toOuter(part.pose);
             if (!boundsOf(part.shape, pose).overlaps(other)) continue;
             forEachManifold(shape_a, pose_a, part.shape, pose, margin, manifold, use);

@@ -26,6 +26,9 @@ constexpr double at_edge_part = 1e-6;
 /// Part of the shape by which points may lie outside the triangles of their face.
 constexpr double on_face_part = 1e-9;
 
+/// Part of what the shape is thick by which it is deep in the surface.
+constexpr double deep_part = 0.02;
+
 struct SurfaceManifold {
     Manifold manifold;
     bool behind = false;  ///< the middle of the shape is behind the surface
@@ -66,6 +69,8 @@ class SurfaceMeeting {
     void addFace(const SurfaceFace& face, bool behind);
     void meetBall(const Sphere& ball, std::span<const std::uint32_t> triangles);
     void addEdge(const Vec3& normal, const ManifoldPoint& point);
+    void meetDeepest();
+    Manifold contactWith(const SurfaceFace& face, std::uint32_t triangle) const;
     bool joinFace(const Manifold& edge);
     void dropBehind();
     bool isNearBorder(std::uint32_t triangle) const;
@@ -114,6 +119,8 @@ std::vector<SurfaceManifold>& SurfaceMeeting::find() {
     for (const SurfaceManifold& edge : edges_) {
         if (!joinFace(edge.manifold)) found_.push_back(edge);
     }
+    const auto touches = [](const SurfaceManifold& m) { return m.deepest() <= 0; };
+    if (std::ranges::none_of(found_, touches)) meetDeepest();
     dropBehind();
     return found_;
 }
@@ -187,8 +194,7 @@ bool SurfaceMeeting::isNearBorder(std::uint32_t triangle) const {
     return false;
 }
 
-/// The contact with a single triangle at the border of its face.
-void SurfaceMeeting::meetTriangle(const SurfaceFace& face, std::uint32_t triangle) {
+Manifold SurfaceMeeting::contactWith(const SurfaceFace& face, std::uint32_t triangle) const {
     const std::array<Vec3, 3> corners = surface_.corners(triangle);
     const Vec3& origin = pose_.position;
     ConvexTriangle local{{corners[0] - origin, corners[1] - origin, corners[2] - origin}, face.normal};
@@ -196,6 +202,13 @@ void SurfaceMeeting::meetTriangle(const SurfaceFace& face, std::uint32_t triangl
     if (turn.dot(face.normal) < 0) std::swap(local.corners[1], local.corners[2]);
     Manifold contact;
     convexContact(convex_, Convex(local), origin, margin_, contact);
+    return contact;
+}
+
+/// The contact with a single triangle at the border of its face.
+void SurfaceMeeting::meetTriangle(const SurfaceFace& face, std::uint32_t triangle) {
+    const std::array<Vec3, 3> corners = surface_.corners(triangle);
+    Manifold contact = contactWith(face, triangle);
     if (contact.size == 0) return;
     if (contact.normal.dot(face.normal) > 1 - same_direction) {
         for (std::size_t i = 0; i < contact.size; ++i) {
@@ -270,6 +283,33 @@ void SurfaceMeeting::meetBall(const Sphere& ball, std::span<const std::uint32_t>
     }
 }
 
+/// A shape that has got deep into triangles that are small beside it may lie with no corner over any of them, and its
+/// least overlap with each be aside, where a neighbour contradicts it. It still crosses the surface: it meets the face
+/// that it is deepest in.
+void SurfaceMeeting::meetDeepest() {
+    ManifoldPoint deepest{Vec3::Zero(), -deep_part * convex_.smallest(), 0};
+    bool any = false;
+    const Bounds touching = near_.grown(-margin_);
+    for (const std::uint32_t triangle : triangles_) {
+        const auto [a, b, c] = surface_.corners(triangle);
+        if (!touching.overlaps({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)})) continue;
+        const SurfaceFace face = turnedTo(surface_, surface_.face_of[triangle], centre_);
+        const Manifold contact = contactWith(face, triangle);
+        for (std::size_t i = 0; i < contact.size; ++i) {
+            if (!(contact.points[i].distance < deepest.distance)) continue;
+            deepest = contact.points[i];
+            deepest.triangle = triangle;
+            any = true;
+        }
+    }
+    if (!any) return;
+    const SurfaceFace face = turnedTo(surface_, surface_.face_of[deepest.triangle], centre_);
+    SurfaceManifold& added = found_.emplace_back();
+    added.behind = face.height(centre_) < 0;
+    added.manifold.normal = face.normal;
+    added.manifold.add(deepest.point, deepest.distance, deepest.triangle);
+}
+
 /// Takes a contact with an edge or a corner, which all triangles around it may find.
 void SurfaceMeeting::addEdge(const Vec3& normal, const ManifoldPoint& point) {
     const double together = merge_part * convex_.smallest();
@@ -315,7 +355,7 @@ void SurfaceMeeting::dropBehind() {
     const bool front = std::ranges::any_of(found_, touches);
     double shallowest = -std::numeric_limits<double>::infinity();
     for (const SurfaceManifold& m : found_) {
-        if (m.behind) shallowest = std::max(shallowest, m.deepest());
+        if (m.behind && m.deepest() <= 0) shallowest = std::max(shallowest, m.deepest());
     }
     std::erase_if(found_, [&](const SurfaceManifold& m) { return m.behind && (front || m.deepest() < shallowest); });
 }

@@ -51,6 +51,7 @@ Shape checkedShape(const Shape& shape) {
     Shape result = shape;
     if (auto* compound = std::get_if<Compound>(&result)) {
         for (CompoundPart& part : compound->parts) part.pose.orientation.normalize();
+        compound->tree.reset();  // for one question it pays to ask all parts
     }
     return result;
 }

@@ -14,13 +14,19 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Over the parts of a compound; null = ask all.
+const BoundsTree* treeOf(const Shape& shape) {
+    const auto* compound = std::get_if<Compound>(&shape);
+    return compound != nullptr ? compound->tree.get() : nullptr;
+}
+
 /// Calls visit(part) for the parts of a target whose bounds overlap a box of W.
 template <class Visit>
 void forEachPart(const Target& target, const Bounds& box, const Visit& visit) {
     const SurfaceData* surface = surfaceOf(target.shape);
     const auto* compound = std::get_if<Compound>(&target.shape);
     if (compound == nullptr && surface == nullptr) return visit(std::uint32_t{0});
-    const BoundsTree* tree = surface != nullptr ? &surface->tree : target.parts;
+    const BoundsTree* tree = surface != nullptr ? &surface->tree : treeOf(target.shape);
     if (tree != nullptr && box.lower.allFinite() && box.upper.allFinite()) {
         // The box turned into the frame of the compound, in bounds of its own.
         const Vec3 half = 0.5 * (box.upper - box.lower);
@@ -69,31 +75,18 @@ Bounds sweptBounds(const AskedShape& moving, const Vec3& direction, double reach
 
 }  // namespace
 
-Bounds widened(const Bounds& bounds) {
-    const Vec3 most = bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs());
-    // Bounds without an end have no size that could be rounded.
-    const Vec3 slack = most.unaryExpr([](double x) { return x < infinity ? 1e-9 * x : 0.0; });
-    return {bounds.lower - slack, bounds.upper + slack};
-}
-
-std::vector<Bounds> boundsOfParts(const Compound& compound) {
-    std::vector<Bounds> bounds;
-    for (const CompoundPart& part : compound.parts) bounds.push_back(widened(boundsOf(part.shape, part.pose)));
-    return bounds;
-}
-
 std::optional<SurfaceHit> castRayAt(const Target& target, const Ray& ray) {
     const LocalRay local = localRay(target, ray);
     std::optional<LocalHit> best;
     if (const SurfaceData* surface = surfaceOf(target.shape)) {
         best = castRay(*surface, local, ray.reach);
-    } else if (target.parts == nullptr) {
+    } else if (treeOf(target.shape) == nullptr) {
         best = castRay(target.shape, local);
         if (best && best->distance > ray.reach) best.reset();
     } else {
         const auto& compound = *std::get_if<Compound>(&target.shape);
         double reach = ray.reach;
-        target.parts->forEachAlong({local.origin, local.direction}, reach, [&](std::uint32_t part) {
+        compound.tree->forEachAlong({local.origin, local.direction}, reach, [&](std::uint32_t part) {
             const std::optional<LocalHit> hit = hitOfPart(compound, part, local);
             if (!hit || hit->distance > reach) return;
             if (best && std::tuple(best->distance, best->part) < std::tuple(hit->distance, part)) return;

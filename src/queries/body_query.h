@@ -19,14 +19,8 @@ struct AskedShape {
 /// A shape that is asked about.
 struct Target {
     const Shape& shape;
-    Pose pose;                ///< of its frame in W
-    const BoundsTree* parts;  ///< over the parts of a compound in its frame; null = ask all
+    Pose pose;  ///< of its frame in W
 };
-
-/// Bounds of the parts of a compound in its own frame, as its tree has them.
-std::vector<Bounds> boundsOfParts(const Compound& compound);
-/// Bounds that hold also what rounding makes of them, so that who asks them first finds all that who does not finds.
-Bounds widened(const Bounds& bounds);
 
 /// @param ray with a unit direction
 std::optional<SurfaceHit> castRayAt(const Target& target, const Ray& ray);

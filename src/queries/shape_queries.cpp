@@ -15,7 +15,7 @@ namespace cairn {
 
 std::optional<SurfaceHit> castRay(const Shape& shape, const Pose& pose, const Ray& ray) {
     const Shape asked = checkedShape(shape);
-    return castRayAt({asked, checkedPose(pose), nullptr}, checkedRay(ray));
+    return castRayAt({asked, checkedPose(pose)}, checkedRay(ray));
 }
 
 std::optional<ShapeHit> castShape(const Shape& moving, const Pose& pose, const Vec3& way, const Shape& other,
@@ -24,14 +24,14 @@ std::optional<ShapeHit> castShape(const Shape& moving, const Pose& pose, const V
     const Shape met = checkedShape(other);
     const Ray path = checkedWay(way);
     requireBounded(asked);
-    return castShapeAt({asked, checkedPose(pose)}, path.direction, path.reach, {met, checkedPose(other_pose), nullptr});
+    return castShapeAt({asked, checkedPose(pose)}, path.direction, path.reach, {met, checkedPose(other_pose)});
 }
 
 bool overlap(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
     const Shape asked = checkedShape(a);
     const Shape met = checkedShape(b);
     std::vector<std::uint32_t> parts;
-    findOverlaps({asked, checkedPose(pose_a)}, {met, checkedPose(pose_b), nullptr}, parts);
+    findOverlaps({asked, checkedPose(pose_a)}, {met, checkedPose(pose_b)}, parts);
     return !parts.empty();
 }
 
@@ -40,7 +40,7 @@ ClosestPoints closestPoints(const Shape& a, const Pose& pose_a, const Shape& b, 
     const Shape met = checkedShape(b);
     requireClosest(asked, met);
     constexpr double everywhere = std::numeric_limits<double>::infinity();
-    return closestAt({asked, checkedPose(pose_a)}, {met, checkedPose(pose_b), nullptr}, everywhere).value();
+    return closestAt({asked, checkedPose(pose_a)}, {met, checkedPose(pose_b)}, everywhere).value();
 }
 
 namespace {

@@ -7,9 +7,6 @@ namespace cairn {
 
 namespace {
 
-/// Compounds of fewer parts are asked part by part.
-constexpr std::size_t fewest_for_tree = 8;
-
 bool isAsked(const BodyStorage& bodies, BodyIndex body, const QueryFilter& filter) {
     if (bodies.sensor[body] != 0) return false;
     const auto isIn = [&](GroupId group) {
@@ -33,8 +30,8 @@ auto order(const BodyHit& hit) {
 bool SpatialIndex::listBodies(const BodyStorage& bodies) {
     std::vector<BodyIndex> bounded;
     unbounded_.clear();
-    bool same = parts_.size() == bodies.slots();
-    parts_.resize(bodies.slots());
+    bool same = numbers_.size() == bodies.slots();
+    numbers_.resize(bodies.slots());
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (bodies.kind[i] == BodyKind::hole) continue;
         if (isInfinite(bodies.shape[i])) {
@@ -42,16 +39,10 @@ bool SpatialIndex::listBodies(const BodyStorage& bodies) {
         } else {
             bounded.push_back(i);
         }
-        Parts& parts = parts_[i];
         // Numbers begin with 0.
-        if (parts.number == bodies.number[i] + 1) continue;
+        if (numbers_[i] == bodies.number[i] + 1) continue;
         same = false;
-        parts = {bodies.number[i] + 1, nullptr};
-        const auto* compound = std::get_if<Compound>(&bodies.shape[i]);
-        if (compound == nullptr || compound->parts.size() < fewest_for_tree) continue;
-        auto tree = std::make_shared<BoundsTree>();
-        tree->build(boundsOfParts(*compound));
-        parts.tree = std::move(tree);
+        numbers_[i] = bodies.number[i] + 1;
     }
     same = same && bounded == bounded_;
     bounded_ = std::move(bounded);

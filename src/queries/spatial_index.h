@@ -35,17 +35,9 @@ class SpatialIndex {
     std::vector<NearBody> closestPoints(const BodyStorage& bodies, const AskedShape& asked, double reach,
                                         const QueryFilter& filter) const;
     /// A body as questions see it.
-    Target target(const BodyStorage& bodies, BodyIndex body) const {
-        return {bodies.shape[body], poses_[body], parts_[body].tree.get()};
-    }
+    Target target(const BodyStorage& bodies, BodyIndex body) const { return {bodies.shape[body], poses_[body]}; }
 
   private:
-    /// The tree of a compound, which never changes while its body lives.
-    struct Parts {
-        std::uint64_t number = 0;  ///< of the body
-        std::shared_ptr<const BoundsTree> tree;
-    };
-
     bool listBodies(const BodyStorage& bodies);
     template <class Visit>
     void forEachAlong(const BodyStorage& bodies, const TreeRay& ray, const double& reach, const QueryFilter& filter,
@@ -54,11 +46,11 @@ class SpatialIndex {
     void forEachNear(const BodyStorage& bodies, const Bounds& box, const QueryFilter& filter, const Visit& visit) const;
 
     BoundsTree tree_;
-    std::vector<BodyIndex> bounded_;    ///< the items of the tree
-    std::vector<BodyIndex> unbounded_;  ///< always asked
-    std::vector<Bounds> bounds_;        ///< of the items [W]
-    std::vector<Pose> poses_;           ///< [slots] of the shapes
-    std::vector<Parts> parts_;          ///< [slots]
+    std::vector<BodyIndex> bounded_;      ///< the items of the tree
+    std::vector<BodyIndex> unbounded_;    ///< always asked
+    std::vector<Bounds> bounds_;          ///< of the items [W]
+    std::vector<Pose> poses_;             ///< [slots] of the shapes
+    std::vector<std::uint64_t> numbers_;  ///< [slots] of the bodies, plus 1
 };
 
 /// A spatial index that is brought up to date by the first question after a change, on any thread.

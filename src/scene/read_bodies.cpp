@@ -55,21 +55,6 @@ void checkMass(const JsonNode& node, const SceneBody& body, double density) {
     }
 }
 
-/// Three moments, or these and the products xy, xz and yz.
-Mat3 readInertia(const JsonNode& node) {
-    if (!node.value().is_array() || (node.size() != 3 && node.size() != 6)) {
-        node.refuse("three moments xx, yy, zz, or these and the products xy, xz, yz [kg·m²]");
-    }
-    const auto at = [&](std::size_t i) { return node.element(i).number(); };
-    Mat3 inertia = Vec3(at(0), at(1), at(2)).asDiagonal();
-    if (node.size() == 6) {
-        inertia(0, 1) = inertia(1, 0) = at(3);
-        inertia(0, 2) = inertia(2, 0) = at(4);
-        inertia(1, 2) = inertia(2, 1) = at(5);
-    }
-    return inertia;
-}
-
 /// Members that only a fixed body has, or none.
 void checkMotion(const JsonNode& node, const SceneBody& body) {
     const auto member = [&](std::string_view key) { return node.find(key).value_or(node); };
@@ -203,7 +188,7 @@ BodyTemplate readMembers(const JsonNode& node, const SceneReading& reading) {
     }
     if (const auto value = node.find("mass")) body.mass = value->positive();
     if (const auto value = node.find("centre_of_mass")) body.centre_of_mass = value->vector();
-    if (const auto value = node.find("inertia")) body.inertia = readInertia(*value);
+    if (const auto value = node.find("inertia")) body.inertia = readInertia(*value, "kg·m²");
     if (const auto value = node.find("position")) body.position = value->vector();
     if (const auto value = node.find("orientation")) body.orientation = readOrientation(*value);
     if (const auto value = node.find("linear_velocity")) body.linear_velocity = value->vector();

@@ -90,7 +90,7 @@ void mergeGroups(const SceneFilters& from, const JsonNode& node, SceneFilters& i
 
 /// A scene of another file. What is about the whole scene cannot be placed.
 Scene readIncluded(const JsonNode& node, SceneReading& reading) {
-    const std::filesystem::path file = fileOf(node);
+    const std::filesystem::path file = node.file();
     if (std::ranges::find(reading.files, std::filesystem::weakly_canonical(file)) != reading.files.end()) {
         node.fail("includes itself, directly or through others; take out one of the includes");
     }

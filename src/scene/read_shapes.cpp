@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include "cairn/decompose.h"
 #include "cairn/mesh_file.h"
 #include "geometry/geometry.h"
 #include "scene/scene_reading.h"
@@ -11,7 +12,8 @@ namespace {
 constexpr double smallest_quaternion = 1e-6;
 constexpr double largest_quaternion = 1e6;
 
-constexpr std::string_view shape_types = "sphere, box, capsule, cylinder, hull, compound, plane, mesh or height_field";
+constexpr std::string_view shape_types =
+    "sphere, box, capsule, cylinder, hull, compound, solid, plane, mesh or height_field";
 
 double readLength(const JsonNode& node, std::string_view key) {
     return node.required(key, "a number above 0 [m]").positive();
@@ -89,20 +91,15 @@ std::vector<TriangleCorners> readTriangles(const JsonNode& list) {
     return triangles;
 }
 
-Shape readMeshShape(const JsonNode& node) {
-    node.expectKeys({"type", "file", "vertices", "indices", "scale", "sides"});
+/// What use makes of the triangles of a file, or of those that are given.
+template <class Use>
+Shape readTriangleShape(const JsonNode& node, SurfaceSides sides, const Use& use) {
     const auto scale_node = node.find("scale");
     const Vec3 scale = scale_node ? readScale(*scale_node) : Vec3::Ones();
-    SurfaceSides sides = SurfaceSides::one;
-    if (const auto given = node.find("sides")) {
-        const std::string name = given->text();
-        if (name != "one" && name != "two") given->refuse("one or two");
-        sides = name == "one" ? SurfaceSides::one : SurfaceSides::two;
-    }
     requireOneOf(node, "file", "vertices");
     if (const auto file = node.find("file")) {
         if (node.find("indices")) node.fail("has a file and indices; the file has its own, remove them");
-        return built(*file, [&] { return readMesh(file->file(), sides, scale); });
+        return built(*file, [&] { return use(readMesh(file->file(), sides, scale)); });
     }
     const JsonNode list = node.required("vertices", "an array of points [m]");
     list.expectArray("an array of points [m]");
@@ -110,7 +107,32 @@ Shape readMeshShape(const JsonNode& node) {
     vertices.reserve(list.size());
     for (std::size_t i = 0; i < list.size(); ++i) vertices.push_back(list.element(i).vector());
     auto triangles = readTriangles(node.required("indices", "an array of triangles, each of three indices"));
-    return built(node, [&] { return Mesh(std::move(vertices), std::move(triangles), sides, scale); });
+    return built(node, [&] { return use(Mesh(std::move(vertices), std::move(triangles), sides, scale)); });
+}
+
+Shape readMeshShape(const JsonNode& node) {
+    node.expectKeys({"type", "file", "vertices", "indices", "scale", "sides"});
+    SurfaceSides sides = SurfaceSides::one;
+    if (const auto given = node.find("sides")) {
+        const std::string name = given->text();
+        if (name != "one" && name != "two") given->refuse("one or two");
+        sides = name == "one" ? SurfaceSides::one : SurfaceSides::two;
+    }
+    return readTriangleShape(node, sides, [](Mesh mesh) { return mesh; });
+}
+
+Shape readSolid(const JsonNode& node) {
+    node.expectKeys({"type", "file", "vertices", "indices", "scale", "largest_error", "most_parts", "hull_if_open"});
+    DecompositionOptions options;
+    if (const auto given = node.find("largest_error")) options.largest_error = given->number();
+    if (const auto given = node.find("most_parts")) {
+        const Json& value = given->value();
+        if (!value.is_number_integer() || value < 1 || value > 1000) given->refuse("a whole number from 1 to 1000");
+        options.most_parts = value.get<int>();
+    }
+    if (const auto given = node.find("hull_if_open")) options.hull_if_open = given->flag();
+    return readTriangleShape(node, SurfaceSides::one,
+                             [&](const Mesh& mesh) { return decompose(mesh, options).compound; });
 }
 
 Eigen::Vector2d readSpacing(const JsonNode& node) {
@@ -159,22 +181,33 @@ CompoundPart readPart(const JsonNode& node, const SceneReading& reading) {
     return part;
 }
 
+/// Mass, centre and inertia of what the parts of a compound stand for.
+SolidProperties readSolidProperties(const JsonNode& node) {
+    node.expectKeys({"volume", "centre_of_mass", "inertia"});
+    SolidProperties solid;
+    solid.volume = node.required("volume", "a number above 0 [m³]").positive();
+    solid.centre = node.required("centre_of_mass", "a point [m]").vector();
+    solid.inertia = readInertia(node.required("inertia", "three or six numbers [m⁵]"), "m⁵");
+    return solid;
+}
+
 Shape readCompound(const JsonNode& node, const SceneReading& reading) {
-    node.expectKeys({"type", "parts"});
+    node.expectKeys({"type", "parts", "solid"});
     const JsonNode list = node.required("parts", "an array of at least one part");
     list.expectArray("an array of at least one part");
     if (list.size() == 0) list.fail("is empty; a compound without parts has no mass, it needs at least one");
     Compound compound;
     for (std::size_t i = 0; i < list.size(); ++i) compound.parts.push_back(readPart(list.element(i), reading));
-    return compound;
+    const auto solid = node.find("solid");
+    if (!solid) return compound;
+    compound.solid = readSolidProperties(*solid);
+    return built(*solid, [&] {
+        validateShape(compound);
+        return compound;
+    });
 }
 
 }  // namespace
-
-std::filesystem::path fileOf(const JsonNode& node) {
-    const std::filesystem::path file(node.text());
-    return file.is_absolute() ? file : std::filesystem::path(node.source()).parent_path() / file;
-}
 
 Shape readShape(const JsonNode& node, const SceneReading& reading) {
     if (node.value().is_string()) {
@@ -201,9 +234,24 @@ Shape readShape(const JsonNode& node, const SceneReading& reading) {
     if (type == "plane") return readPlane(node);
     if (type == "hull") return readHull(node);
     if (type == "mesh") return readMeshShape(node);
+    if (type == "solid") return readSolid(node);
     if (type == "height_field") return readHeightFieldShape(node);
     if (type != "compound") type_node.refuse(shape_types);
     return readCompound(node, reading);
+}
+
+Mat3 readInertia(const JsonNode& node, std::string_view unit) {
+    if (!node.value().is_array() || (node.size() != 3 && node.size() != 6)) {
+        node.refuse(fmt::format("three moments xx, yy, zz, or these and the products xy, xz, yz [{}]", unit));
+    }
+    const auto at = [&](std::size_t i) { return node.element(i).number(); };
+    Mat3 inertia = Vec3(at(0), at(1), at(2)).asDiagonal();
+    if (node.size() == 6) {
+        inertia(0, 1) = inertia(1, 0) = at(3);
+        inertia(0, 2) = inertia(2, 0) = at(4);
+        inertia(1, 2) = inertia(2, 1) = at(5);
+    }
+    return inertia;
 }
 
 Quat readOrientation(const JsonNode& node) {

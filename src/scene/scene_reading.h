@@ -66,6 +66,8 @@ Scene readSceneIn(const std::filesystem::path& file, std::vector<std::filesystem
 /// A shape, or the name of a shared one. @throws InputError
 Shape readShape(const JsonNode& node, const SceneReading& reading);
 Quat readOrientation(const JsonNode& node);
+/// Three moments, or these and the products xy, xz and yz. @param unit in the message
+Mat3 readInertia(const JsonNode& node, std::string_view unit);
 std::vector<double> readNumbers(const JsonNode& node);
 /// How properties of a pair depend on the velocity at a contact.
 PairLaw readPairLaw(const JsonNode& node);
@@ -77,8 +79,6 @@ Motion readMotion(const JsonNode& node);
 TableEnd readTableEnd(const JsonNode& node);
 /// The name of a group that the scene has.
 std::string readGroup(const JsonNode& node, const SceneReading& reading);
-/// The file that a value names, from the folder of its scene on.
-std::filesystem::path fileOf(const JsonNode& node);
 /// The names of things, for messages. @param key of the scene that lists them
 template <class Thing>
 std::string knownNames(const ByName<Thing>& things, std::string_view key) {

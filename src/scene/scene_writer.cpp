@@ -14,6 +14,7 @@ namespace cairn {
 namespace {
 
 using written::arrayText;
+using written::inertiaText;
 using written::isOmitted;
 using written::number;
 using written::orientationText;
@@ -27,16 +28,6 @@ std::string text(const std::string& value) {
         throw InputError(
             fmt::format("a scene with the name {} cannot be written; names must be UTF-8", shown(Json(value))));
     }
-}
-
-/// Three moments, and the three products if there are any.
-std::string inertiaText(const Mat3& inertia) {
-    std::string out = fmt::format("[{},{},{}", number(inertia(0, 0)), number(inertia(1, 1)), number(inertia(2, 2)));
-    const Vec3 products(inertia(0, 1), inertia(0, 2), inertia(1, 2));
-    if (!products.isZero(0)) {
-        out += fmt::format(",{},{},{}", number(products.x()), number(products.y()), number(products.z()));
-    }
-    return out + "]";
 }
 
 std::string namesText(const std::vector<std::string>& names) {

@@ -32,4 +32,13 @@ std::string orientationText(const Quat& q) {
     return fmt::format(R"(,"orientation":[{},{},{},{}])", number(q.w()), number(q.x()), number(q.y()), number(q.z()));
 }
 
+std::string inertiaText(const Mat3& inertia) {
+    std::string out = fmt::format("[{},{},{}", number(inertia(0, 0)), number(inertia(1, 1)), number(inertia(2, 2)));
+    const Vec3 products(inertia(0, 1), inertia(0, 2), inertia(1, 2));
+    if (!products.isZero(0)) {
+        out += fmt::format(",{},{},{}", number(products.x()), number(products.y()), number(products.z()));
+    }
+    return out + "]";
+}
+
 }  // namespace cairn::written

@@ -22,6 +22,9 @@ bool isOmitted(const Vec3& v);
 /// A member of an object behind others; empty for the identity.
 std::string orientationText(const Quat& q);
 
+/// Three moments, and the three products if there are any.
+std::string inertiaText(const Mat3& inertia);
+
 /// All elements, each as a text of its own.
 template <class Range, class ToText>
 std::string arrayText(const Range& range, const ToText& toText) {

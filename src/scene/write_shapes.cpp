@@ -6,6 +6,7 @@ namespace cairn {
 namespace {
 
 using written::arrayText;
+using written::inertiaText;
 using written::isOmitted;
 using written::number;
 using written::orientationText;
@@ -63,7 +64,12 @@ std::string shapeText(const Compound& s) {
         if (part.density) out += fmt::format(R"(,"density":{})", number(*part.density));
         out += '}';
     }
-    return out + "]";
+    out += ']';
+    if (s.solid) {
+        out += fmt::format(R"(,"solid":{{"volume":{},"centre_of_mass":{},"inertia":{}}})", number(s.solid->volume),
+                           vector(s.solid->centre), inertiaText(s.solid->inertia));
+    }
+    return out;
 }
 
 /// What copies of a shape share; none if there is nothing.

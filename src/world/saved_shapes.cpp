@@ -9,6 +9,9 @@ namespace cairn {
 
 namespace {
 
+/// In place of the index of a compound that stands for a solid.
+constexpr std::uint8_t solid_compound = 9;
+
 /// The dimensions of a shape.
 using ShapeNumbers = std::array<double, 4>;
 
@@ -44,6 +47,10 @@ struct SaveShape {
             putOptional(part.mass, out);
             putOptional(part.density, out);
         }
+        if (!compound.solid) return;
+        out.put(compound.solid->volume);
+        out.put(compound.solid->centre);
+        out.put(compound.solid->inertia);
     }
     void operator()(const Mesh& mesh) const {
         out.put(mesh.sides());
@@ -103,7 +110,7 @@ enum class Nesting { allowed, refused };
 
 Shape load(ByteReader& in, Nesting nesting);
 
-Shape loadCompound(ByteReader& in) {
+Compound loadCompound(ByteReader& in) {
     Compound compound;
     for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
         CompoundPart part{load(in, Nesting::refused), {}, {}, {}};
@@ -116,12 +123,22 @@ Shape loadCompound(ByteReader& in) {
     return compound;
 }
 
+Compound loadSolidCompound(ByteReader& in) {
+    Compound compound = loadCompound(in);
+    SolidProperties& solid = compound.solid.emplace();
+    solid.volume = in.get<double>();
+    solid.centre = in.get<Vec3>();
+    solid.inertia = in.get<Mat3>();
+    return compound;
+}
+
 Shape load(ByteReader& in, Nesting nesting) {
     const auto kind = in.get<std::uint8_t>();
     if (kind == 5) return loadHull(in);
     if (kind == 6 && nesting == Nesting::allowed) return loadCompound(in);
     if (kind == 7 && nesting == Nesting::allowed) return loadMesh(in);
     if (kind == 8 && nesting == Nesting::allowed) return loadHeightField(in);
+    if (kind == solid_compound && nesting == Nesting::allowed) return loadSolidCompound(in);
     if (kind > 4) in.refuse("an unknown kind of shape");
     ShapeNumbers n{};
     for (double& number : n) number = in.get<double>();
@@ -142,13 +159,16 @@ Shape load(ByteReader& in, Nesting nesting) {
 }  // namespace
 
 void saveShape(const Shape& shape, ByteWriter& out) {
-    out.put(static_cast<std::uint8_t>(shape.index()));
+    const auto* compound = std::get_if<Compound>(&shape);
+    const bool solid = compound != nullptr && compound->solid;
+    out.put(solid ? solid_compound : static_cast<std::uint8_t>(shape.index()));
     std::visit(SaveShape{out}, shape);
 }
 
 Shape loadShape(ByteReader& in) {
     Shape shape = load(in, Nesting::allowed);
     sound(in, [&] { validateShape(shape); });
+    indexParts(shape);
     return shape;
 }
 

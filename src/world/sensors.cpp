@@ -12,7 +12,7 @@ namespace {
 /// Whether the shapes of two bodies have a point in common.
 bool doOverlap(const BodyStorage& bodies, BodyIndex a, BodyIndex b) {
     std::vector<std::uint32_t> parts;
-    findOverlaps({bodies.shape[a], bodies.shapePose(a)}, {bodies.shape[b], bodies.shapePose(b), nullptr}, parts);
+    findOverlaps({bodies.shape[a], bodies.shapePose(a)}, {bodies.shape[b], bodies.shapePose(b)}, parts);
     return !parts.empty();
 }
 

@@ -120,12 +120,13 @@ void setMass(BodyStorage& bodies, BodyIndex i, const BodyDescription& d, double 
     bodies.r_min[i] = smallestRadius(bodies.shape[i]);
 }
 
-/// The shape as the world keeps it: parts of compounds with unit quaternions.
+/// The shape as the world keeps it: parts of compounds with unit quaternions, and a tree over them.
 Shape normalised(const Shape& shape) {
     Shape result = shape;
     if (auto* compound = std::get_if<Compound>(&result)) {
         for (CompoundPart& part : compound->parts) part.pose.orientation.normalize();
     }
+    indexParts(result);
     return result;
 }
 

@@ -44,6 +44,35 @@ std::vector<Manifold> on(const Shape& surface, const Shape& shape, const Pose& p
     return ::testing::AssertionSuccess();
 }
 
+TEST(Surfaces, AreMetByWhateverIsDeepInThem) {
+    // Triangles 20 cm wide, smaller than what gets into them.
+    const auto height = [](double x, double y) { return 0.4 * std::sin(2 * x) * std::cos(3 * y); };
+    const Mesh rough = irregularMesh(60, 12, 21, height);
+    Random random(5);
+    for (const auto& [name, shape] : solids()) {
+        if (std::holds_alternative<Compound>(shape)) continue;  // whose middle may be in none of its parts
+        for (int i = 0; i < 2000; ++i) {
+            Vec3 at = random.vector(4);
+            at.z() = height(at.x(), at.y()) + random.uniform(-0.02, 0.06);
+            const Quat turn = random.orientation();
+            const auto found = on(rough, shape, {at, turn});
+            EXPECT_FALSE(found.empty()) << name << " " << i;
+            // What is looked for farther away hides none of it.
+            const auto ahead = on(rough, shape, {at, turn}, 0.3);
+            EXPECT_TRUE(std::ranges::any_of(ahead,
+                                            [](const Manifold& m) {
+                                                return std::any_of(
+                                                    m.points.begin(), m.points.begin() + m.size,
+                                                    [](const ManifoldPoint& p) { return p.distance <= 0; });
+                                            }))
+                << name << " " << i;
+            double upwards = -1;
+            for (const Manifold& m : found) upwards = std::max(upwards, m.normal.z());
+            EXPECT_GT(upwards, 0) << name << " " << i;
+        }
+    }
+}
+
 TEST(Surfaces, OfAPlaneTouchAsThePlaneDoes) {
     const Mesh mesh = flatMesh(40, 4);
     Random random(3);

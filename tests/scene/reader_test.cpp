@@ -208,7 +208,7 @@ TEST(SceneReader, RefusesNumbersThatMeanNothing) {
         {shape(R"({"type":"cylinder","radius":1})"), {"bodies[3].shape.length is missing"}},
         {shape(R"({"type":"cone"})"),
          {"bodies[3].shape.type is \"cone\";",
-          "sphere, box, capsule, cylinder, hull, compound, plane, mesh or height_field"}},
+          "sphere, box, capsule, cylinder, hull, compound, solid, plane, mesh or height_field"}},
         {ball(R"("mass":0)"), {"bodies[3].mass is 0;", "above 0"}},
         {ball(R"("mass":-2)"), {"bodies[3].mass is -2;"}},
         {ball(R"("mass":1e-310)"), {"bodies[3] has a mass of"}},
