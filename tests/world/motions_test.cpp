@@ -139,7 +139,9 @@ TEST(Motion, APistonLiftsWithItsWork) {
 }
 
 TEST(Motion, SleepersWakeWhenTheirGroundMoves) {
-    MovedTable t(Settings::preset(Preset::performance));
+    Settings settings = Settings::preset(Preset::performance);
+    settings.resolution.tolerance = 0.01;
+    MovedTable t(settings);
     const BodyId lower = t.box({0, 0, 0.1});
     const BodyId upper = t.box({0, 0, 0.3});
     t.run(2);
