@@ -80,7 +80,6 @@ void setRobust(Settings& s, double scale) {
     s.correction.correction = CorrectionKind::position_sweeps;
     s.correction.penetration_threshold = 0;
     s.correction.correction_rounds = 1;
-    s.resolution.tolerance = 0.1;
     s.integration.exact_flight = true;
 }
 
