@@ -185,18 +185,9 @@ const std::vector<SettingField>& settingTable() {
     return all;
 }
 
-/// Fields that have another name now.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> renamed_fields = {
-    std::pair("sweep_limit", "iterations"),     std::pair("moving_sweep_limit", "tolerance"),
-    std::pair("moving_tolerance", "tolerance"), std::pair("small_sweep_part", "tolerance"),
-    std::pair("sliding_part", "tolerance"),     std::pair("visit_limit", "tolerance")};
-
 const SettingField& findField(std::string_view name) {
     for (const SettingField& field : settingTable()) {
         if (field.name == name) return field;
-    }
-    for (const auto& [before, now] : renamed_fields) {
-        if (name == before) throw InputError(fmt::format("there is no setting '{}' any more; use '{}'", name, now));
     }
     std::vector<std::string_view> names;
     for (const SettingField& field : settingTable()) names.push_back(field.name);

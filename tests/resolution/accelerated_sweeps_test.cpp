@@ -171,7 +171,6 @@ TEST(AcceleratedSweeps, GiveTheSameBitsOnAnyNumberOfThreads) {
 /// @return sweeps over a tower whose boxes all move with a velocity, and whose contacts are so deep
 std::int64_t sweepsOfTower(const Vec3& velocity, double tolerance, double depth = 0) {
     Pile pile = towerOf(8, [](int) { return 1.0; });
-    pile.gravity = Vec3(0, 0, -10);
     for (BodyIndex box = 1; box < pile.v.size(); ++box) pile.v[box] += velocity;
     for (Contact& contact : pile.contacts) contact.distance = -depth * contact.allowed_overlap;
     ResolutionSettings settings = sweeping();
@@ -182,8 +181,8 @@ std::int64_t sweepsOfTower(const Vec3& velocity, double tolerance, double depth 
 
 TEST(AcceleratedSweeps, SweepWhatMovesAsFarAsItsMotionNeeds) {
     const std::int64_t at_rest = sweepsOfTower(Vec3::Zero(), 0.4);
-    EXPECT_EQ(sweepsOfTower(Vec3(9, 0, 0), 0.4), 1);
-    EXPECT_GT(at_rest, 1);
+    EXPECT_EQ(sweepsOfTower(Vec3(9, 0, 0), 0.4), 1) << "the ground's friction cannot carry what eight boxes weigh far";
+    EXPECT_GT(at_rest, 4);
     EXPECT_LT(at_rest, sweepsOfTower(Vec3::Zero(), 0.01));
     EXPECT_EQ(sweepsOfTower(Vec3(9, 0, 0), 0), 20) << "all that are allowed";
 }

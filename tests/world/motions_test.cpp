@@ -139,9 +139,7 @@ TEST(Motion, APistonLiftsWithItsWork) {
 }
 
 TEST(Motion, SleepersWakeWhenTheirGroundMoves) {
-    Settings settings = Settings::preset(Preset::performance);
-    settings.resolution.tolerance = 0.01;
-    MovedTable t(settings);
+    MovedTable t(Settings::preset(Preset::performance));
     const BodyId lower = t.box({0, 0, 0.1});
     const BodyId upper = t.box({0, 0, 0.3});
     t.run(2);
