@@ -1339,8 +1339,12 @@ class ResolutionSettings(_Record):
         shock_propagation: bool = ...,
         shock_iterations: float = ...,
         queue_switch: int = ...,
-        iterations: int = ...,
-        tolerance: float = ...,
+        sweep_limit: int = ...,
+        moving_sweep_limit: int = ...,
+        moving_tolerance: float = ...,
+        small_sweep_part: float = ...,
+        sliding_part: float = ...,
+        visit_limit: int = ...,
         sweep_tolerance: float = ...,
         direct_limit: int = ...,
         direct_pairs: float = ...,
@@ -1381,11 +1385,23 @@ class ResolutionSettings(_Record):
     def queue_switch(self) -> int:
         """batches with more contacts use the ordered queue (3.8) [contacts]"""
     @property
-    def iterations(self) -> int:
-        """most sweeps, forth and back, of 'accelerated_sweeps' over a batch"""
+    def sweep_limit(self) -> int:
+        """most sweeps, forth and back, of 'accelerated_sweeps' for batches at rest"""
     @property
-    def tolerance(self) -> float:
-        """a batch is swept until about so much is left to change, as a part of how its contacts move"""
+    def moving_sweep_limit(self) -> int:
+        """the same for batches where a contact closes faster than restitution_threshold"""
+    @property
+    def moving_tolerance(self) -> float:
+        """batches that move are swept until about this part of the change is left; 0 = moving_sweep_limit sweeps"""
+    @property
+    def small_sweep_part(self) -> float:
+        """part of moving_sweep_limit that is for batches of fewer than 1024 contacts, at least one sweep"""
+    @property
+    def sliding_part(self) -> float:
+        """and for batches where more than this part of the contacts slide faster; 1 = never"""
+    @property
+    def visit_limit(self) -> int:
+        """most visits of contacts, two per sweep, of batches at rest beyond moving_sweep_limit; 0 = unlimited"""
     @property
     def sweep_tolerance(self) -> float:
         """no more sweeps of 'accelerated_sweeps' once one changes no contact's velocity by more [m/s]"""

@@ -156,8 +156,7 @@ TEST(Motion, BaseExcitationAgreesWithInertialForces) {
     Settings settings = measured();
     settings.resolution.resolution_threshold = 1e-13;
     settings.resolution.sweep_tolerance = 1e-14;
-    settings.resolution.iterations = 1000;
-    settings.resolution.tolerance = 0;
+    settings.resolution.sweep_limit = settings.resolution.moving_sweep_limit = 1000;
     MovedTable shaken(settings);
     MovedTable inertial(settings);
     std::vector<BodyId> ids;
