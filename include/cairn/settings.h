@@ -93,11 +93,18 @@ struct ResolutionSettings {
     bool shock_propagation = true;   ///< Algorithm 10, when the limit was reached with contacts still closing
     double shock_iterations = 6;     ///< the same limit for each stage of the shock propagation; 0 = unlimited
     std::int64_t queue_switch = 64;  ///< batches with more contacts use the ordered queue (§3.8)
-    std::int64_t iterations = 100;   ///< most sweeps (forth and back) of accelerated_sweeps over a batch, ≥ 1
-    /// A batch is swept until what all further sweeps would change is estimated to be no more than this part of how its
-    /// contacts move, 0 to 1: exactly where it lies still. Less is left where bodies are in each other deeper than
-    /// allowed. 0 = until sweep_tolerance.
-    double tolerance = 0.4;
+    std::int64_t sweep_limit = 10;   ///< most sweeps (forth and back) of accelerated_sweeps for a batch at rest, ≥ 1
+    std::int64_t moving_sweep_limit = 2;  ///< the same where a contact closes faster than restitution_threshold, ≥ 1
+    /// In place of these two: batches that move are swept, sweep_limit times at most, until what all further sweeps
+    /// would change is estimated to be no more than this part of what the first one changed, or of what gravity gives
+    /// the bodies in a step; 0 = moving_sweep_limit sweeps, whatever they change.
+    double moving_tolerance = 0;
+    double small_sweep_part =
+        0.5;                     ///< and of that the part for batches of fewer than 1024 contacts, 0 to 1; at least one
+    double sliding_part = 0.03;  ///< and where more than this part of the contacts slide faster, 0 to 1; 1 = never
+    /// Batches at rest end after so many visits of contacts (two per sweep) even below their sweep_limit, but not below
+    /// moving_sweep_limit; 0 = they do not.
+    std::int64_t visit_limit = 80'000;
     double sweep_tolerance = 1e-6;    ///< no more sweeps once a sweep changes no contact's velocity by more [m/s]
     std::int64_t direct_limit = 100;  ///< batches at rest of up to so many bodies may take direct steps; 0 = none
     double direct_pairs = 1.5;        ///< and of up to so many pairs in touch per body: stacks and chains; 0 = any

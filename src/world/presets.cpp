@@ -19,6 +19,14 @@ double ownSteps(Preset preset) {
     return preset == Preset::accuracy || preset == Preset::thesis_accuracy ? 960 : 240;
 }
 
+/// Longer time steps take more sweeps, so that the same simulated time costs about the same.
+/// @param longer than the preset's own, ≥ 1
+void sweepLongerSteps(ResolutionSettings& resolution, double longer) {
+    for (std::int64_t* limit : {&resolution.sweep_limit, &resolution.moving_sweep_limit, &resolution.visit_limit}) {
+        *limit = static_cast<std::int64_t>(std::ceil(longer * static_cast<double>(*limit)));
+    }
+}
+
 /// The defaults. @param scale |g|Δt as a multiple of that with 10 m/s² and the preset's own time step; below likewise
 void setPerformance(Settings& s, double scale) {
     s.resolution.resolution_threshold *= scale;
@@ -37,7 +45,11 @@ void setAccuracy(Settings& s, double scale) {
     s.resolution.restitution_threshold = 11.5e-3 * scale;
     s.resolution.global_iterations = 0;
     s.resolution.shock_propagation = false;
-    s.resolution.tolerance = 0.01;
+    s.resolution.sweep_limit = 100;
+    s.resolution.moving_sweep_limit = 20;
+    s.resolution.small_sweep_part = 1;
+    s.resolution.sliding_part = 1;
+    s.resolution.visit_limit = 0;
     s.resolution.sweep_tolerance = 1e-8 * scale;
     s.resolution.direct_limit = 1000;
     s.resolution.direct_pairs = 0;
@@ -62,6 +74,7 @@ void setThesisAlgorithms(Settings& s) {
     s.resolution.restitution_law = RestitutionLaw::newton;
     s.resolution.restitution_speed = RestitutionSpeed::closing;
     s.resolution.impacts = Impacts::of_resolution;
+    s.resolution.moving_tolerance = 0;
     s.resolution.shock_iterations = 6;
     s.resolution.queue_switch = 64;
     s.resolution.wake_speed = 0;
@@ -80,6 +93,9 @@ void setRobust(Settings& s, double scale) {
     s.correction.correction = CorrectionKind::position_sweeps;
     s.correction.penetration_threshold = 0;
     s.correction.correction_rounds = 1;
+    s.resolution.moving_tolerance = 0.4;
+    s.resolution.sweep_limit = 100;
+    s.resolution.visit_limit = 0;
     s.integration.exact_flight = true;
 }
 
@@ -157,6 +173,7 @@ Settings Settings::preset(Preset preset, double steps_per_second, double gravity
             setRobust(s, scale);
             break;
     }
+    sweepLongerSteps(s.resolution, std::max(1.0, own_steps / s.steps_per_second));
     return s;
 }
 

@@ -140,11 +140,24 @@ const std::vector<SettingField>& settingTable() {
             "limit of each shock stage as a multiple of its contacts; 0 = unlimited"),
         plain<&S::resolution, &R::queue_switch>("queue_switch", "resolution", "contacts", 0, 1e9,
                                                 "batches with more contacts use the ordered queue (3.8)"),
-        plain<&S::resolution, &R::iterations>("iterations", "resolution", "", 1, 1e6,
-                                              "most sweeps, forth and back, of 'accelerated_sweeps' over a batch"),
-        plain<&S::resolution, &R::tolerance>(
-            "tolerance", "resolution", "", 0, 1,
-            "a batch is swept until about so much is left to change, as a part of how its contacts move"),
+        plain<&S::resolution, &R::sweep_limit>(
+            "sweep_limit", "resolution", "", 1, 1e6,
+            "most sweeps, forth and back, of 'accelerated_sweeps' for batches at rest"),
+        plain<&S::resolution, &R::moving_sweep_limit>(
+            "moving_sweep_limit", "resolution", "", 1, 1e6,
+            "the same for batches where a contact closes faster than restitution_threshold"),
+        plain<&S::resolution, &R::moving_tolerance>(
+            "moving_tolerance", "resolution", "", 0, 1,
+            "batches that move are swept until about this part of the change is left; 0 = moving_sweep_limit sweeps"),
+        plain<&S::resolution, &R::small_sweep_part>(
+            "small_sweep_part", "resolution", "", 0, 1,
+            "part of moving_sweep_limit that is for batches of fewer than 1024 contacts, at least one sweep"),
+        plain<&S::resolution, &R::sliding_part>(
+            "sliding_part", "resolution", "", 0, 1,
+            "and for batches where more than this part of the contacts slide faster; 1 = never"),
+        plain<&S::resolution, &R::visit_limit>(
+            "visit_limit", "resolution", "", 0, 1e12,
+            "most visits of contacts, two per sweep, of batches at rest beyond moving_sweep_limit; 0 = unlimited"),
         plain<&S::resolution, &R::sweep_tolerance>(
             "sweep_tolerance", "resolution", "m/s", 0, 1e3,
             "no more sweeps of 'accelerated_sweeps' once one changes no contact's velocity by more"),
