@@ -82,9 +82,10 @@ void mergeGroups(const SceneFilters& from, const JsonNode& node, SceneFilters& i
         node.fail(fmt::format("makes {} groups with those of the scene; a scene has at most {}", into.groups.size(),
                               most_groups));
     }
-    for (const auto& [a, b] : from.apart) {
-        const auto same = [&](const auto& pair) { return std::minmax(pair.first, pair.second) == std::minmax(a, b); };
-        if (std::ranges::none_of(into.apart, same)) into.apart.emplace_back(a, b);
+    const auto ordered = [](const auto& groups) { return std::minmax(groups.first, groups.second); };
+    for (const auto& groups : from.apart) {
+        const auto same = [&](const auto& others) { return ordered(others) == ordered(groups); };
+        if (std::ranges::none_of(into.apart, same)) into.apart.push_back(groups);
     }
 }
 

@@ -28,7 +28,7 @@ Shape indexed(const Compound& compound) {
 }
 
 /// Everything that is found, number by number.
-std::vector<double> manifoldsOf(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
+std::vector<double> numbersOf(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
     std::vector<double> found;
     Manifold manifold;
     forEachManifold(a, pose_a, b, pose_b, 0.01, manifold, [&](const Manifold& m) {
@@ -56,9 +56,9 @@ TEST(PartsOfCompounds, ATreeChangesNoBitOfWhatIsFound) {
             for (int i = 0; i < 100; ++i) {
                 const Pose pose{far + random.vector(0.3), random.orientation()};
                 const Pose other_pose{far + random.vector(0.6), random.orientation()};
-                const auto expected = manifoldsOf(plain, pose, other, other_pose);
-                EXPECT_EQ(manifoldsOf(with_tree, pose, other, other_pose), expected) << name << " " << i;
-                EXPECT_EQ(manifoldsOf(other, other_pose, with_tree, pose), manifoldsOf(other, other_pose, plain, pose));
+                const auto expected = numbersOf(plain, pose, other, other_pose);
+                EXPECT_EQ(numbersOf(with_tree, pose, other, other_pose), expected) << name << " " << i;
+                EXPECT_EQ(numbersOf(other, other_pose, with_tree, pose), numbersOf(other, other_pose, plain, pose));
                 EXPECT_EQ(boundsOf(with_tree, pose).lower, boundsOf(plain, pose).lower);
                 EXPECT_EQ(boundsOf(with_tree, pose).upper, boundsOf(plain, pose).upper);
                 numbers += expected.size();
