@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <span>
 #include <tuple>
-#include <unordered_map>
+#include <vector>
+
+#include "geometry/groups.h"
 
 namespace cairn {
 
@@ -33,35 +35,22 @@ std::vector<DirectedEdge> directedEdges(const SurfaceData& surface) {
     return edges;
 }
 
-/// Groups of vertices that open edges join.
-class HoleCounter {
-  public:
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-    std::size_t count() {
-        std::set<std::uint32_t> roots;
-        for (const auto& entry : parent_) roots.insert(find(entry.first));
-        return roots.size();
-    }
-
-  private:
-    std::uint32_t find(std::uint32_t i) {
-        while (parent_.try_emplace(i, i).first->second != i) i = parent_[i];
-        return i;
-    }
-
-    std::unordered_map<std::uint32_t, std::uint32_t> parent_;
-};
+/// How many groups the ends of open edges make.
+std::size_t countHoles(std::span<const DirectedEdge> open, std::size_t vertices) {
+    Groups groups(open.empty() ? 0 : vertices);
+    for (const DirectedEdge& edge : open) groups.join(edge.low, edge.high);
+    std::vector<std::uint32_t> holes;
+    for (const DirectedEdge& edge : open) holes.push_back(groups.find(edge.low));
+    std::ranges::sort(holes);
+    return static_cast<std::size_t>(std::unique(holes.begin(), holes.end()) - holes.begin());
+}
 
 }  // namespace
 
 OpenEdges openEdgesOf(const SurfaceData& surface) {
     const std::vector<DirectedEdge> edges = directedEdges(surface);
     OpenEdges result;
-    HoleCounter holes;
+    std::vector<DirectedEdge> open;
     for (std::size_t begin = 0; begin < edges.size();) {
         const auto [low, high, sign] = edges[begin];
         int sum = 0;
@@ -70,15 +59,15 @@ OpenEdges openEdgesOf(const SurfaceData& surface) {
         const bool even = (end - begin) % 2 == 0;
         begin = end;
         if (sum == 0) continue;
-        if (!result.any()) result.first = 0.5 * (surface.vertices[low] + surface.vertices[high]);
+        if (open.empty() && result.opposite == 0) result.first = 0.5 * (surface.vertices[low] + surface.vertices[high]);
         if (even) {
             ++result.opposite;
         } else {
-            ++result.open;
-            holes.join(low, high);
+            open.push_back({low, high, sign});
         }
     }
-    result.holes = holes.count();
+    result.open = open.size();
+    result.holes = countHoles(open, surface.vertices.size());
     return result;
 }
 

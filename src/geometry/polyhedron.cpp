@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+#include <tuple>
+
+#include "geometry/groups.h"
 
 namespace cairn {
 
@@ -47,24 +49,6 @@ void forEachRun(std::span<const SharedEdge> shared, const Use& use) {
         begin = end;
     }
 }
-
-/// Groups of numbers that hang together; a group is named by its lowest member.
-class Groups {
-  public:
-    explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::uint32_t{0}); }
-    std::uint32_t find(std::uint32_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-  private:
-    std::vector<std::uint32_t> parent_;
-};
 
 /// Solid angle of the surface seen from a point, in whole spheres: how often it encloses the point.
 /// @source van Oosterom, Strackee 1983, doi:10.1109/TBME.1983.325207
