@@ -1,9 +1,13 @@
 /// @file cairn info: what stands in a recording or a scene.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cairn/decompose.h"
 #include "cairn/recording.h"
@@ -35,15 +39,23 @@ std::string describeBodies(const Scene& scene) {
     return text;
 }
 
-/// How well convex parts stand for concave solids.
+/// How well convex parts stand for concave solids; those that are told alike in one line, by their first bodies.
 std::string describeSolids(const Scene& scene) {
-    std::string text;
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        const auto* compound = std::get_if<Compound>(&scene.bodies[i].shape);
+    std::vector<std::pair<std::string, std::size_t>> solids;
+    for (const SceneBody& body : scene.bodies) {
+        const auto* compound = std::get_if<Compound>(&body.shape);
         if (compound == nullptr || !compound->solid) continue;
-        text += line("solid", fmt::format("body {}: {} parts, volume {:.6g} m³, error {:.2g} of it", i,
-                                          compound->parts.size(), compound->solid->volume, volumeErrorOf(*compound)));
+        const std::string solid = fmt::format("{} parts, volume {:.6g} m³, error {:.2g} of it", compound->parts.size(),
+                                              compound->solid->volume, volumeErrorOf(*compound));
+        const auto same = std::ranges::find(solids, solid, &std::pair<std::string, std::size_t>::first);
+        if (same == solids.end()) {
+            solids.emplace_back(solid, 1);
+        } else {
+            ++same->second;
+        }
     }
+    std::string text;
+    for (const auto& [solid, count] : solids) text += line("solid", fmt::format("{} × {}", count, solid));
     return text;
 }
 
