@@ -71,6 +71,29 @@ TEST_P(Scenes, EndWithNothingLostAndOverlapsWithinAMillimetreOfTheThreshold) {
 INSTANTIATE_TEST_SUITE_P(OfTheThesis, Scenes, testing::Values("stacks5", "well324", "cage384"),
                          [](const auto& param) { return std::string(param.param); });
 
+/// Most by which the kinetic and potential energy rises above its lowest value so far, as a part of the first.
+double gainOf(const Scene& scene, Preset preset, double seconds) {
+    SettingOverrides overrides;
+    overrides.preset = preset;
+    SceneRun run(scene, settingsFor(scene, overrides));
+    const auto energy = [&] { return run.world().kineticEnergy() + run.world().potentialEnergy(); };
+    const double first = energy();
+    double lowest = first;
+    double gain = 0;
+    while (run.world().time() < seconds) {
+        run.step();
+        gain = std::max(gain, energy() - lowest);
+        lowest = std::min(lowest, energy());
+    }
+    return gain / first;
+}
+
+TEST(Bullet, GivesTheWallsNoEnergyThatItDoesNotHave) {
+    const Scene scene = builtInScene("stacks5");
+    EXPECT_LT(gainOf(scene, Preset::performance, 2.5), 5e-3);
+    EXPECT_LT(gainOf(scene, Preset::accuracy, 1.5), 5e-3);
+}
+
 TEST(Bullet, GoesThroughAllWallsAndLowerPartsStayStanding) {
     const Scene scene = builtInScene("stacks5");
     SceneRun run(scene, settingsFor(scene));
