@@ -83,7 +83,7 @@ bench::Variant parseVariant(const std::string& text) {
     const std::size_t colon = text.find(':');
     if (colon == std::string::npos || colon == 0) {
         throw InputError(fmt::format(
-            "--variant is given '{}'; it must be NAME:FIELD=VALUE, for example sweeps20:sweep_limit=20", text));
+            "--variant is given '{}'; it must be NAME:FIELD=VALUE, for example exact:tolerance=0.01", text));
     }
     bench::Variant variant{text.substr(0, colon), {}};
     for (const std::string& part : CLI::detail::split(text.substr(colon + 1), ',')) {

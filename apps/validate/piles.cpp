@@ -221,7 +221,7 @@ double defaultStepsPerSecond(double extent, double gravity) {
 
 PileResult runPile(const Pile& pile, const std::function<void(Settings&)>& change,
                    const std::function<void(const World&)>& alive) {
-    Settings settings = Settings::preset(Preset::robust, pile.step * defaultStepsPerSecond(pile.extent, g), g);
+    Settings settings = Settings::preset(Preset::performance, pile.step * defaultStepsPerSecond(pile.extent, g), g);
     change(settings);
     Poured poured = pour(pile, settings);
     World& world = poured.world;

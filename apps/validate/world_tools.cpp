@@ -10,8 +10,8 @@ Settings accurateSettings(double steps_per_second, ResolutionKind resolver) {
     settings.sleep.sleeping = false;
     settings.resolution.resolution = resolver;
     if (resolver == ResolutionKind::accelerated_sweeps) {
-        settings.resolution.sweep_limit = 1000;
-        settings.resolution.moving_sweep_limit = 1000;
+        settings.resolution.iterations = 1000;
+        settings.resolution.tolerance = 0;
         settings.resolution.resolution_threshold *= 1e-3;
         settings.resolution.sweep_tolerance *= 0.1;
     }

@@ -16,8 +16,8 @@ constexpr std::size_t deep_every = 20;
 
 Pile pileWithDeepContacts() {
     Pile pile = makePile(1);
-    const double threshold = pile.settings.correction.penetration_threshold;
     for (std::size_t i = 0; i < pile.contacts.size(); ++i) {
+        const double threshold = pile.contacts[i].allowed_overlap;
         double& distance = pile.contacts[i].distance;
         distance = std::max(distance, -0.9 * threshold);
         if (i % deep_every == 0) distance = -1.4 * threshold;
@@ -30,7 +30,7 @@ Pass correctPass() {
     const Pile begin = *pile;
     const auto contacts_of = std::make_shared<ContactsOfBodies>();
     listContacts(pile->kind, pile->contacts, *contacts_of);
-    const std::shared_ptr<Correction> correction = makeCorrection(CorrectionKind::propagated);
+    const std::shared_ptr<Correction> correction = makeCorrection(pile->settings.correction.correction);
     Pass pass;
     pass.prepare = [pile, begin] {
         pile->position = begin.position;
@@ -42,7 +42,7 @@ Pass correctPass() {
         keep(counts);
     };
     for (const Contact& contact : pile->contacts) {
-        if (contact.distance < -pile->settings.correction.penetration_threshold) ++pass.items;
+        if (contact.distance < -contact.allowed_overlap) ++pass.items;
     }
     return pass;
 }

@@ -18,8 +18,7 @@ enum class Preset {
     performance,      ///< for real time
     accuracy,         ///< the other end of the dial between speed and truth
     thesis,           ///< the thesis's algorithms with its high performance settings. @source thesis §5.1
-    thesis_accuracy,  ///< and with its high accuracy settings. @source thesis §5.5
-    robust            ///< for deep piles; slower than performance. What it does not hold yet: docs/notebook.md
+    thesis_accuracy   ///< and with its high accuracy settings. @source thesis §5.5
 };
 
 /// The name of each preset, in the order of the enumeration, as in scene files and `--preset`.
@@ -55,29 +54,20 @@ struct DetectionSettings {
     BroadPhaseKind broad_phase = BroadPhaseKind::hash_grids;  ///< all_pairs is its slow oracle
     /// Contacts are reported up to this distance before touching [m], ≥ 0; where penetration_threshold is 0, 0 stands
     /// for a sixteenth of the overlap that is allowed.
-    double contact_margin = 1e-4;
+    double contact_margin = 0;
     /// And so are those of bodies that would meet before the next detection: accelerated_sweeps lets them come just so
     /// close, rather than fly into or through each other. What a call moved or added is looked ahead for from its
     /// second step on. Not with RestitutionSpeed::touching.
-    bool speculative_contacts = false;
+    bool speculative_contacts = true;
 };
 
 /// Penetration correction. @source thesis §2
 struct CorrectionSettings {
-    CorrectionKind correction = CorrectionKind::propagated;  ///< the algorithm, or none
-    /// Overlap above which a contact is corrected [m]; −thr_pen of the thesis; 0 = allowed_overlap, only without
-    /// CorrectionKind::propagated.
-    double penetration_threshold = 1.74e-3;
+    CorrectionKind correction = CorrectionKind::position_sweeps;  ///< the algorithm, or none
+    /// Overlap above which a contact is corrected [m]; −thr_pen of the thesis; 0 = allowed_overlap.
+    double penetration_threshold = 0;
     double allowed_overlap = 0.0145;     ///< the same as a part of the smaller body's smallest extent, > 0
     double remaining_penetration = 0.7;  ///< part of the threshold that a correction leaves, in (0, 1) (2.5.4)
-    /// Further attempts for contacts that no candidate corrects: the first for those deeper than 1.14 times the
-    /// threshold, then 1.5 times, each next one for twice that, so that a deep overlap in a tight pile is spread over
-    /// its neighbours. 0 = none, as in the thesis; 0 to 16.
-    std::int64_t spread_levels = 8;
-    /// Detections and corrections of a step, 1 to 100: where a correction displaced a body by more than the threshold,
-    /// what it pushed that into is found and corrected in the same step, so often. 1 = once, as in the thesis, and with
-    /// RestitutionSpeed::touching.
-    std::int64_t correction_rounds = 2;
 };
 
 /// Contact resolution and shock propagation. @source thesis §3.3–3.8
@@ -93,18 +83,11 @@ struct ResolutionSettings {
     bool shock_propagation = true;   ///< Algorithm 10, when the limit was reached with contacts still closing
     double shock_iterations = 6;     ///< the same limit for each stage of the shock propagation; 0 = unlimited
     std::int64_t queue_switch = 64;  ///< batches with more contacts use the ordered queue (§3.8)
-    std::int64_t sweep_limit = 10;   ///< most sweeps (forth and back) of accelerated_sweeps for a batch at rest, ≥ 1
-    std::int64_t moving_sweep_limit = 2;  ///< the same where a contact closes faster than restitution_threshold, ≥ 1
-    /// In place of these two: batches that move are swept, sweep_limit times at most, until what all further sweeps
-    /// would change is estimated to be no more than this part of what the first one changed, or of what gravity gives
-    /// the bodies in a step; 0 = moving_sweep_limit sweeps, whatever they change.
-    double moving_tolerance = 0;
-    double small_sweep_part =
-        0.5;                     ///< and of that the part for batches of fewer than 1024 contacts, 0 to 1; at least one
-    double sliding_part = 0.03;  ///< and where more than this part of the contacts slide faster, 0 to 1; 1 = never
-    /// Batches at rest end after so many visits of contacts (two per sweep) even below their sweep_limit, but not below
-    /// moving_sweep_limit; 0 = they do not.
-    std::int64_t visit_limit = 80'000;
+    std::int64_t iterations = 100;   ///< most sweeps (forth and back) of accelerated_sweeps over a batch, ≥ 1
+    /// A batch is swept until what all further sweeps would change is estimated to be no more than this part of how its
+    /// contacts move, 0 to 1: exactly where it lies still. Less is left where bodies are in each other deeper than
+    /// allowed. 0 = until sweep_tolerance.
+    double tolerance = 0.4;
     double sweep_tolerance = 1e-6;    ///< no more sweeps once a sweep changes no contact's velocity by more [m/s]
     std::int64_t direct_limit = 100;  ///< batches at rest of up to so many bodies may take direct steps; 0 = none
     double direct_pairs = 1.5;        ///< and of up to so many pairs in touch per body: stacks and chains; 0 = any
@@ -131,7 +114,7 @@ struct GravityDampingSettings {
 /// Motion of free bodies.
 struct IntegrationSettings {
     bool gyroscopic = true;     ///< torque-free rotation keeps its angular momentum (Euler's equations)
-    bool exact_flight = false;  ///< smooth motion follows the mean of a step's velocities: free bodies, the parabola
+    bool exact_flight = true;  ///< smooth motion follows the mean of a step's velocities: free bodies, the parabola
 };
 
 /// Threads. @source thesis §4

@@ -187,7 +187,6 @@ class Preset(enum.IntEnum):
     accuracy = 1
     thesis = 2
     thesis_accuracy = 3
-    robust = 4
 
 class BroadPhaseKind(enum.IntEnum):
     """How candidates for contacts are found."""
@@ -1301,8 +1300,6 @@ class CorrectionSettings(_Record):
         penetration_threshold: float = ...,
         allowed_overlap: float = ...,
         remaining_penetration: float = ...,
-        spread_levels: int = ...,
-        correction_rounds: int = ...,
     ) -> None: ...
     @property
     def correction(self) -> CorrectionKind:
@@ -1316,12 +1313,6 @@ class CorrectionSettings(_Record):
     @property
     def remaining_penetration(self) -> float:
         """part of the threshold that a correction leaves (2.5.4)"""
-    @property
-    def spread_levels(self) -> int:
-        """attempts to spread overlaps that no candidate corrects; 0 = none, as in the thesis"""
-    @property
-    def correction_rounds(self) -> int:
-        """most detections and corrections in a step, where bodies were pushed into others; 1 as in the thesis"""
 
 class ResolutionSettings(_Record):
     """Contact resolution and shock propagation."""
@@ -1339,12 +1330,8 @@ class ResolutionSettings(_Record):
         shock_propagation: bool = ...,
         shock_iterations: float = ...,
         queue_switch: int = ...,
-        sweep_limit: int = ...,
-        moving_sweep_limit: int = ...,
-        moving_tolerance: float = ...,
-        small_sweep_part: float = ...,
-        sliding_part: float = ...,
-        visit_limit: int = ...,
+        iterations: int = ...,
+        tolerance: float = ...,
         sweep_tolerance: float = ...,
         direct_limit: int = ...,
         direct_pairs: float = ...,
@@ -1385,23 +1372,11 @@ class ResolutionSettings(_Record):
     def queue_switch(self) -> int:
         """batches with more contacts use the ordered queue (3.8) [contacts]"""
     @property
-    def sweep_limit(self) -> int:
-        """most sweeps, forth and back, of 'accelerated_sweeps' for batches at rest"""
+    def iterations(self) -> int:
+        """most sweeps, forth and back, of 'accelerated_sweeps' over a batch"""
     @property
-    def moving_sweep_limit(self) -> int:
-        """the same for batches where a contact closes faster than restitution_threshold"""
-    @property
-    def moving_tolerance(self) -> float:
-        """batches that move are swept until about this part of the change is left; 0 = moving_sweep_limit sweeps"""
-    @property
-    def small_sweep_part(self) -> float:
-        """part of moving_sweep_limit that is for batches of fewer than 1024 contacts, at least one sweep"""
-    @property
-    def sliding_part(self) -> float:
-        """and for batches where more than this part of the contacts slide faster; 1 = never"""
-    @property
-    def visit_limit(self) -> int:
-        """most visits of contacts, two per sweep, of batches at rest beyond moving_sweep_limit; 0 = unlimited"""
+    def tolerance(self) -> float:
+        """a batch is swept until about so much is left to change, as a part of how its contacts move"""
     @property
     def sweep_tolerance(self) -> float:
         """no more sweeps of 'accelerated_sweeps' once one changes no contact's velocity by more [m/s]"""

@@ -73,7 +73,7 @@ def run(
     - scene: a Scene, the name of a built-in one ("stacks5", "tower:20") or a scene file.
     - duration: in place of the scene's [s], > 0.
     - record: file for a recording.
-    - preset, steps_per_second [1/s], settings: override the scene's, as "threads" or "sweep_limit".
+    - preset, steps_per_second [1/s], settings: override the scene's, as "threads" or "iterations".
     - hashes: whether every time step's state hash is recorded, so that verify_recording() compares each.
     - frame_rate: frames of the recording per simulated second, at most one per time step.
     - contacts, joints: whether contacts with impulses and forces of joints are recorded.

@@ -33,7 +33,7 @@ def scene(restitution: float) -> cairn.Scene:
             cairn.SceneBody(cairn.Sphere(RADIUS), "rubber", position=[0, 0, RADIUS + HEIGHT]),
         ],
         preset="accuracy",
-        settings={"exact_flight": True, "restitution_speed": "touching", "correction_rounds": 1, "damping": 0,
+        settings={"exact_flight": True, "restitution_speed": "touching", "damping": 0,
                   "sleeping": False},
     )
 

@@ -61,8 +61,8 @@ scene = cairn.Scene(
         wall.replace(position=[WIDTH + 0.05, 0, 2], motion=push(-1)),
         *(glass.replace(shape=cairn.Sphere(radius), position=place) for radius, place in zip(radii, places)),
     ],
-    settings={"steps_per_second": 960, "penetration_threshold": 2e-4, "contact_margin": 1e-5, "sweep_limit": 50,
-              "moving_sweep_limit": 20, "sleeping": False, "damping": 0},
+    settings={"steps_per_second": 960, "penetration_threshold": 2e-4, "contact_margin": 1e-5, "iterations": 50,
+              "tolerance": 0.05, "sleeping": False, "damping": 0},
 )
 FIRST = 5
 

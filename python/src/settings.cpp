@@ -43,8 +43,6 @@ void bindStages(py::module_& module) {
         .field("penetration_threshold", &C::penetration_threshold)
         .field("allowed_overlap", &C::allowed_overlap)
         .field("remaining_penetration", &C::remaining_penetration)
-        .field("spread_levels", &C::spread_levels)
-        .field("correction_rounds", &C::correction_rounds)
         .finish();
     using S = SleepSettings;
     SettingRecord<S>(module, "SleepSettings", "Sleeping.")
@@ -89,12 +87,8 @@ void bindResolution(py::module_& module) {
         .field("shock_propagation", &R::shock_propagation)
         .field("shock_iterations", &R::shock_iterations)
         .field("queue_switch", &R::queue_switch)
-        .field("sweep_limit", &R::sweep_limit)
-        .field("moving_sweep_limit", &R::moving_sweep_limit)
-        .field("moving_tolerance", &R::moving_tolerance)
-        .field("small_sweep_part", &R::small_sweep_part)
-        .field("sliding_part", &R::sliding_part)
-        .field("visit_limit", &R::visit_limit)
+        .field("iterations", &R::iterations)
+        .field("tolerance", &R::tolerance)
         .field("sweep_tolerance", &R::sweep_tolerance)
         .field("direct_limit", &R::direct_limit)
         .field("direct_pairs", &R::direct_pairs)

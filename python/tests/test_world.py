@@ -168,11 +168,11 @@ def test_parts_keep_what_they_belong_to() -> None:
 def test_settings_are_frozen_and_replaced() -> None:
     settings = cairn.Settings.preset("accuracy", gravity=9.81)
     assert settings.steps_per_second == 960
-    changed = settings.replace(sweep_limit=3, correction="none", threads=2)
-    assert changed.resolution.sweep_limit == 3 and changed.correction.correction is cairn.CorrectionKind.none
-    assert settings.resolution.sweep_limit != 3
+    changed = settings.replace(iterations=3, correction="none", threads=2)
+    assert changed.resolution.iterations == 3 and changed.correction.correction is cairn.CorrectionKind.none
+    assert settings.resolution.iterations != 3
     with pytest.raises(AttributeError):
-        settings.resolution.sweep_limit = 3  # type: ignore[misc]
+        settings.resolution.iterations = 3  # type: ignore[misc]
     with pytest.raises(cairn.InputError, match="thread"):
         settings.replace(threads=0)
     with pytest.raises(cairn.InputError):

@@ -13,10 +13,10 @@ namespace {
 class NoCorrection final : public Correction {
   public:
     CorrectionCounts correct(const BatchView& batch, const ContactsOfBodies&, std::span<Contact> contacts,
-                             const BodyState&, const CorrectionSettings& settings) override {
+                             const BodyState&, const CorrectionSettings&) override {
         CorrectionCounts counts;
         for (const std::uint32_t index : batch.contacts) {
-            if (contacts[index].distance < -settings.penetration_threshold) ++counts.penetrating;
+            if (contacts[index].distance < -contacts[index].allowed_overlap) ++counts.penetrating;
         }
         counts.uncorrected = counts.penetrating;
         return counts;

@@ -35,16 +35,18 @@ CorrectionCounts PositionSweeps::correct(const BatchView& batch, const ContactsO
     if (counts.penetrating == 0) return counts;
     gather(batch, contacts, bodies);
     for (int i = 1; i <= most_sweeps; ++i) {
-        const double deepest = sweep(settings.remaining_penetration);
+        const double deepest = sweep(contacts, bodies, settings.remaining_penetration);
         if (!(deepest > (i < usual_sweeps ? 1 : deep_multiple))) break;
+    }
+    for (Overlap& overlap : overlaps_) {
+        if (isMoved(overlap)) leversOf(overlap, contacts, bodies);
     }
     counts.displaced = displace(batch, bodies);
     pay(contacts, bodies);
     for (const Overlap& overlap : overlaps_) {
+        if (!isMoved(overlap)) continue;
         Contact& contact = contacts[overlap.index];
-        const Vec3& a = shares_[overlap.a].displacement;
-        const Vec3& b = shares_[overlap.b].displacement;
-        contact.point += 0.5 * (a + b);
+        contact.point += 0.5 * (shares_[overlap.a].displacement + shares_[overlap.b].displacement);
         contact.distance = distanceOf(overlap);
         if (overlap.distance < overlap.threshold && !(contact.distance < overlap.threshold)) ++counts.corrected;
     }
@@ -59,60 +61,77 @@ void PositionSweeps::gather(const BatchView& batch, std::span<const Contact> con
     for (std::uint32_t i = 0; i < fixed; ++i) local_[batch.bodies[i]] = i;
     shares_.assign(batch.bodies.size() + 1, {});
     overlaps_.clear();
+    levers_.clear();
     for (const std::uint32_t index : batch.contacts) {
         const Contact& contact = contacts[index];
-        Overlap o;
-        o.normal = contact.normal;
-        o.distance = contact.distance;
-        o.threshold = -contact.allowed_overlap;
-        o.lever_a = (contact.point - bodies.position[contact.a]).cross(contact.normal);
-        o.lever_b = (contact.point - bodies.position[contact.b]).cross(contact.normal);
-        o.turn_a = bodies.inertiaInv_W[contact.a] * o.lever_a;
-        o.turn_b = bodies.inertiaInv_W[contact.b] * o.lever_b;
-        o.mass_a = bodies.mass_inv[contact.a];
-        o.mass_b = bodies.mass_inv[contact.b];
-        o.k = o.mass_a + o.mass_b + o.turn_a.dot(o.lever_a) + o.turn_b.dot(o.lever_b);
-        if (!(o.k > 0 && std::isfinite(o.k)) || !std::isfinite(contact.distance)) continue;
-        o.a = bodies.isFixed(contact.a) ? fixed : local_[contact.a];
-        o.b = bodies.isFixed(contact.b) ? fixed : local_[contact.b];
-        o.index = index;
-        overlaps_.push_back(o);
+        if (!std::isfinite(contact.distance)) continue;
+        overlaps_.push_back({.normal = contact.normal,
+                             .distance = contact.distance,
+                             .threshold = -contact.allowed_overlap,
+                             .a = bodies.isFixed(contact.a) ? fixed : local_[contact.a],
+                             .b = bodies.isFixed(contact.b) ? fixed : local_[contact.b],
+                             .index = index});
     }
+}
+
+/// The levers of a contact, which only those need that are too deep or whose bodies moved.
+const PositionSweeps::Levers& PositionSweeps::leversOf(Overlap& overlap, std::span<const Contact> contacts,
+                                                       const BodyState& bodies) {
+    if (overlap.levers != no_levers) return levers_[overlap.levers];
+    overlap.levers = static_cast<std::uint32_t>(levers_.size());
+    const Contact& contact = contacts[overlap.index];
+    Levers& l = levers_.emplace_back();
+    l.a = (contact.point - bodies.position[contact.a]).cross(contact.normal);
+    l.b = (contact.point - bodies.position[contact.b]).cross(contact.normal);
+    l.turn_a = bodies.inertiaInv_W[contact.a] * l.a;
+    l.turn_b = bodies.inertiaInv_W[contact.b] * l.b;
+    l.mass_a = bodies.mass_inv[contact.a];
+    l.mass_b = bodies.mass_inv[contact.b];
+    l.k = l.mass_a + l.mass_b + l.turn_a.dot(l.a) + l.turn_b.dot(l.b);
+    return l;
 }
 
 /// Visits all contacts forth and back. @return the largest overlap found on the way forth, as a multiple of what is
 /// allowed; 0 if none is too deep
-double PositionSweeps::sweep(double remaining) {
+double PositionSweeps::sweep(std::span<const Contact> contacts, const BodyState& bodies, double remaining) {
     double deepest = 0;
-    for (const Overlap& overlap : overlaps_) {
-        deepest = std::max(deepest, separate(overlap, remaining));
+    for (Overlap& overlap : overlaps_) {
+        deepest = std::max(deepest, separate(overlap, contacts, bodies, remaining));
     }
     if (deepest == 0) return 0;
-    for (std::size_t i = overlaps_.size(); i-- > 0;) separate(overlaps_[i], remaining);
+    for (std::size_t i = overlaps_.size(); i-- > 0;) separate(overlaps_[i], contacts, bodies, remaining);
     return deepest;
 }
 
 /// Moves the bodies of one contact apart if it is too deep by now. @return how deep as sweep() says, else 0
-inline double PositionSweeps::separate(const Overlap& overlap, double remaining) {
+inline double PositionSweeps::separate(Overlap& overlap, std::span<const Contact> contacts, const BodyState& bodies,
+                                       double remaining) {
     Share& a = shares_[overlap.a];
     Share& b = shares_[overlap.b];
+    if (!isMoved(overlap) && !(overlap.distance < overlap.threshold)) return 0;
+    const Levers& levers = leversOf(overlap, contacts, bodies);
     const double distance = distanceOf(overlap);
-    if (!(distance < overlap.threshold)) return 0;
+    if (!(distance < overlap.threshold && levers.k > 0 && std::isfinite(levers.k))) return 0;
     const double goal = std::min(remaining * overlap.threshold, left_of_deep * overlap.distance);
     if (!(distance < goal)) return 0;
-    const double push = (goal - distance) / overlap.k;
-    a.displacement += push * overlap.mass_a * overlap.normal;
-    a.turn += push * overlap.turn_a;
-    b.displacement -= push * overlap.mass_b * overlap.normal;
-    b.turn -= push * overlap.turn_b;
+    const double push = (goal - distance) / levers.k;
+    a.displacement += push * levers.mass_a * overlap.normal;
+    a.turn += push * levers.turn_a;
+    a.moved = a.moved || levers.mass_a > 0;
+    b.displacement -= push * levers.mass_b * overlap.normal;
+    b.turn -= push * levers.turn_b;
+    b.moved = b.moved || levers.mass_b > 0;
     return distance / overlap.threshold;
 }
 
+/// With what the bodies moved so far. @pre the levers are known, or neither body moved
 double PositionSweeps::distanceOf(const Overlap& overlap) const {
+    if (overlap.levers == no_levers) return overlap.distance;
     const Share& a = shares_[overlap.a];
     const Share& b = shares_[overlap.b];
-    return overlap.distance + (a.displacement - b.displacement).dot(overlap.normal) + a.turn.dot(overlap.lever_a) -
-           b.turn.dot(overlap.lever_b);
+    const Levers& levers = levers_[overlap.levers];
+    return overlap.distance + (a.displacement - b.displacement).dot(overlap.normal) + a.turn.dot(levers.a) -
+           b.turn.dot(levers.b);
 }
 
 /// Moves the bodies, wakes them and finds out what they owe. @return how many were moved

@@ -26,38 +26,47 @@ class PositionSweeps final : public Correction {
                              const BodyState& bodies, const CorrectionSettings& settings) override;
 
   private:
+    static constexpr std::uint32_t no_levers = UINT32_MAX;
     /// A contact as the sweeps see it, compact and with local indices of its bodies.
     struct Overlap {
-        Vec3 normal;              ///< from B to A [W]
-        double distance = 0;      ///< before the correction [m]
-        double threshold = 0;     ///< of the distance, below which the bodies move apart [m], ≤ 0
-        Vec3 lever_a;             ///< from the centre of mass of A to the contact, × normal [m]
-        Vec3 lever_b;             ///< likewise of B
-        Vec3 turn_a;              ///< I_A⁻¹·lever_a [1/(kg·m)]
-        Vec3 turn_b;              ///< likewise of B
-        double mass_a = 0;        ///< inverse mass of A [1/kg]
-        double mass_b = 0;        ///< likewise of B
-        double k = 0;             ///< what a unit push along the normal changes of the distance [1/kg]
-        std::uint32_t a = 0;      ///< local index of A; that of all fixed bodies is the last
-        std::uint32_t b = 0;      ///< local index of B
-        std::uint32_t index = 0;  ///< in the contact array
+        Vec3 normal;                       ///< from B to A [W]
+        double distance = 0;               ///< before the correction [m]
+        double threshold = 0;              ///< of the distance, below which the bodies move apart [m], ≤ 0
+        std::uint32_t a = 0;               ///< local index of A; that of all fixed bodies is the last
+        std::uint32_t b = 0;               ///< local index of B
+        std::uint32_t index = 0;           ///< in the contact array
+        std::uint32_t levers = no_levers;  ///< in levers_
+    };
+    /// What pushes of a contact turn and how much they move.
+    struct Levers {
+        Vec3 a;             ///< from the centre of mass of A to the contact, × normal [m]
+        Vec3 b;             ///< likewise of B
+        Vec3 turn_a;        ///< I_A⁻¹·a [1/(kg·m)]
+        Vec3 turn_b;        ///< likewise of B
+        double mass_a = 0;  ///< inverse mass of A [1/kg]
+        double mass_b = 0;  ///< likewise of B
+        double k = 0;       ///< what a unit push along the normal changes of the distance [1/kg]
     };
     /// What happens to a body.
     struct Share {
         Vec3 displacement = Vec3::Zero();  ///< [m, W]
         Vec3 turn = Vec3::Zero();          ///< rotation vector [W]
         double debt = 0;                   ///< potential energy gained and not paid for yet [J], ≥ 0
+        bool moved = false;
     };
 
     void gather(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies);
-    double sweep(double remaining);
-    double separate(const Overlap& overlap, double remaining);
+    bool isMoved(const Overlap& overlap) const { return shares_[overlap.a].moved || shares_[overlap.b].moved; }
+    const Levers& leversOf(Overlap& overlap, std::span<const Contact> contacts, const BodyState& bodies);
+    double sweep(std::span<const Contact> contacts, const BodyState& bodies, double remaining);
+    double separate(Overlap& overlap, std::span<const Contact> contacts, const BodyState& bodies, double remaining);
     double distanceOf(const Overlap& overlap) const;
     std::int64_t displace(const BatchView& batch, const BodyState& bodies);
     void pay(std::span<const Contact> contacts, const BodyState& bodies);
     void payAt(const Contact& contact, Share& a, Share& b, const BodyState& bodies);
 
     std::vector<Overlap> overlaps_;
+    std::vector<Levers> levers_;        ///< of the contacts that asked for them
     std::vector<Share> shares_;         ///< [bodies of the batch + 1]
     std::vector<std::uint32_t> local_;  ///< [slots] local index; holds for the bodies of the present batch
 };

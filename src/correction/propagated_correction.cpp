@@ -1,7 +1,6 @@
 #include "correction/propagated_correction.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -10,13 +9,9 @@ namespace cairn {
 
 namespace {
 
-/// Contacts that cannot be corrected are left alone up to this multiple of the threshold: spreading less would keep
-/// resting piles awake.
-constexpr double first_spread = 1.14;
-
-/// How deep a contact must be for an attempt to spread it [multiple of the threshold]: 1.14, 1.5, 3, 6, …
-double spreadFrom(std::int64_t level) {
-    return level == 0 ? first_spread : std::ldexp(1.5, static_cast<int>(level - 1));
+/// Whether a contact is deeper than allowed; its distance is compared with thr_pen. @source thesis §2
+bool penetrates(const Contact& contact) {
+    return contact.distance < -contact.allowed_overlap;
 }
 
 /// Moves the bodies of a search and wakes them. @return how many
@@ -51,64 +46,34 @@ void updateContacts(const Propagation& search, const ContactsOfBodies& contacts_
 CorrectionCounts PropagatedCorrection::correct(const BatchView& batch, const ContactsOfBodies& contacts_of,
                                                std::span<Contact> contacts, const BodyState& bodies,
                                                const CorrectionSettings& settings) {
-    const double threshold = -settings.penetration_threshold;  // thr_pen
     best_.reserve(bodies.size());
     trial_.reserve(bodies.size());
     penetrating_.clear();
     for (const std::uint32_t index : batch.contacts) {
-        if (contacts[index].distance < threshold) penetrating_.push_back(index);
+        if (penetrates(contacts[index])) penetrating_.push_back(index);
     }
     CorrectionCounts counts;
     counts.penetrating = static_cast<std::int64_t>(penetrating_.size());
-    if (settings.spread_levels > 0) counts.displaced = loosening_.run(batch, contacts, bodies, settings);
-    if (counts.displaced == 0) counts.displaced = push(contacts_of, contacts, bodies, settings);
-    for (const std::uint32_t index : penetrating_) {
-        if (contacts[index].distance < threshold) {
-            ++counts.uncorrected;
-        } else {
-            ++counts.corrected;
-        }
-    }
-    return counts;
-}
-
-std::int64_t PropagatedCorrection::push(const ContactsOfBodies& contacts_of, std::span<Contact> contacts,
-                                        const BodyState& bodies, const CorrectionSettings& settings) {
-    const double threshold = -settings.penetration_threshold;
-    std::int64_t displaced = 0;
-    Pass pass{threshold, settings.remaining_penetration * threshold};
-    const double spread_part = (1 + settings.remaining_penetration) / 2;
-    for (std::int64_t level = 0; level <= settings.spread_levels; ++level) {
-        const bool any = std::any_of(penetrating_.begin(), penetrating_.end(),
-                                     [&](std::uint32_t index) { return contacts[index].distance < pass.limit; });
-        if (!any) break;
-        graph_.reset(contacts_of, contacts, bodies, pass.remaining);
-        displaced += run(pass, contacts_of, contacts, bodies);
-        pass.limit = spreadFrom(level) * threshold;
-        pass.remaining = spread_part * pass.limit;
-    }
-    return displaced;
-}
-
-/// Corrects the contacts deeper than the pass's limit. @return how many bodies were moved
-std::int64_t PropagatedCorrection::run(const Pass& pass, const ContactsOfBodies& contacts_of,
-                                       std::span<Contact> contacts, const BodyState& bodies) {
-    std::int64_t displaced = 0;
+    if (counts.penetrating == 0) return counts;
+    graph_.reset(contacts_of, contacts, bodies, settings.remaining_penetration);
     for (const std::uint32_t index : penetrating_) {
         // The correction of another contact may have corrected this one.
-        if (!(contacts[index].distance < pass.limit)) continue;
-        if (!choose(contacts[index], bodies, pass.remaining)) continue;
-        displaced += moveBodies(best_, bodies);
+        if (!penetrates(contacts[index])) continue;
+        if (!choose(contacts[index], bodies, settings.remaining_penetration)) continue;
+        counts.displaced += moveBodies(best_, bodies);
         updateContacts(best_, contacts_of, contacts, graph_);
     }
-    return displaced;
+    counts.uncorrected = std::ranges::count_if(
+        penetrating_, [&](std::uint32_t index) { return penetrates(contacts[index]); });
+    counts.corrected = counts.penetrating - counts.uncorrected;
+    return counts;
 }
 
 bool PropagatedCorrection::choose(const Contact& contact, const BodyState& bodies, double remaining) {
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
     CandidateKind best_kind = CandidateKind::normal;
     bool found = false;
-    for (const Candidate& candidate : listCandidates(contact, bodies, remaining)) {
+    for (const Candidate& candidate : listCandidates(contact, bodies, -remaining * contact.allowed_overlap)) {
         // On a tie a step back along the velocity replaces one along the normal, so it may move as many bodies.
         const bool wins_tie = candidate.kind == CandidateKind::velocity && best_kind == CandidateKind::normal;
         const std::size_t limit = wins_tie ? fewest : fewest - 1;

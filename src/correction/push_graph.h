@@ -51,7 +51,7 @@ inline Push pushThrough(const PushLink& link, double share, const Vec3& displace
 class PushGraph {
   public:
     /// Begins with new contacts; everything known is forgotten. What is passed must outlive the use.
-    /// @param remaining f·thr_pen: the distance down to which contacts may be pushed [m], ≤ 0
+    /// @param remaining f: the part of what they are allowed to overlap down to which contacts may be pushed, in (0, 1)
     void reset(const ContactsOfBodies& contacts_of, std::span<const Contact> contacts, const BodyState& bodies,
                double remaining);
 

@@ -25,6 +25,15 @@ MovingShape movingShape(const BodyStorage& bodies, BodyIndex i, const BodyAhead*
     return shape;
 }
 
+/// The pose of a body's shape after a time, without what gravity adds, which whatever carries a body takes away again.
+Pose poseAfter(const BodyStorage& bodies, BodyIndex i, const BodyAhead& ahead, double time) {
+    const Pose now = bodies.shapePose(i);
+    const Vec3 centre = bodies.position[i] + bodies.v[i] * time;
+    if (ahead.turning == 0) return {centre + (now.position - bodies.position[i]), now.orientation};
+    const Quat turn = fromRotationVector(bodies.w[i] * time);
+    return {centre + turn * (now.position - bodies.position[i]), turn * now.orientation};
+}
+
 }  // namespace
 
 void lookAhead(const BodyStorage& bodies, const Foresight& foresight, BodyIndex i, BodyAhead& ahead) {
@@ -44,11 +53,6 @@ void lookAhead(const BodyStorage& bodies, const Foresight& foresight, BodyIndex 
     ahead.way = ahead.now.grown(turned);
     ahead.way.lower += way.cwiseMin(0);
     ahead.way.upper += way.cwiseMax(0);
-    const Quat turn = ball ? Quat::Identity() : fromRotationVector(bodies.w[i] * foresight.time);
-    const Pose now = bodies.shapePose(i);
-    // Without what gravity adds, which whatever carries a body takes away again.
-    const Vec3 centre = bodies.position[i] + bodies.v[i] * foresight.time;
-    ahead.end = {centre + turn * (now.position - bodies.position[i]), turn * now.orientation};
 }
 
 bool PairAhead::wouldMeet() const {
@@ -74,8 +78,11 @@ bool PairAhead::meetsWith(const BodyAhead* a, const BodyAhead* b, double depth) 
     const auto look = [&](const Manifold& found) {
         for (std::size_t i = 0; i < found.size; ++i) deep = deep || found.points[i].distance < -depth;
     };
-    forEachManifold(bodies_.shape[pair_.a], a != nullptr ? a->end : bodies_.shapePose(pair_.a), bodies_.shape[pair_.b],
-                    b != nullptr ? b->end : bodies_.shapePose(pair_.b), 0, manifold, look);
+    const auto end = [&](BodyIndex i, const BodyAhead* ahead) {
+        return ahead != nullptr ? poseAfter(bodies_, i, *ahead, foresight_.time) : bodies_.shapePose(i);
+    };
+    forEachManifold(bodies_.shape[pair_.a], end(pair_.a, a), bodies_.shape[pair_.b], end(pair_.b, b), 0, manifold,
+                    look);
     return deep;
 }
 

@@ -40,7 +40,6 @@ struct DetectionRange {
 struct BodyAhead {
     Bounds now;             ///< grown by the contact margin [m, W]
     Bounds way;             ///< of all places from now until then [m, W]
-    Pose end;               ///< of the shape's frame then, without what gravity adds [m, W]
     Vec3 v = Vec3::Zero();  ///< with what gravity adds [m/s, W]
     double turning = 0;     ///< largest speed of a surface point about the centre, 0 for a ball [m/s]
     double reach = 0;       ///< largest way of a surface point [m]; 0 if it is no more than a small part of the body

@@ -215,12 +215,4 @@ void PairTable::addFirst(const Executor& executor) {
         1);
 }
 
-bool isAnyDisplaced(const BodyStorage& bodies, double way) {
-    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (bodies.kind[i] != BodyKind::dynamic) continue;
-        if ((bodies.position[i] - bodies.detected_position[i]).squaredNorm() > way * way) return true;
-    }
-    return false;
-}
-
 }  // namespace cairn

@@ -71,7 +71,4 @@ class PairTable {
     ContactJoiner joiner_;
 };
 
-/// Whether a body that can move is farther than a way [m] from where it was detected last.
-bool isAnyDisplaced(const BodyStorage& bodies, double way);
-
 }  // namespace cairn

@@ -1,5 +1,7 @@
 #include "resolution/batch_plan.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "batches/batch_motion.h"
@@ -9,9 +11,6 @@ namespace cairn {
 
 namespace {
 
-/// Batches with fewer contacts need fewer sweeps while they move.
-constexpr std::size_t large_contacts = 1024;
-
 /// Batches with at least so many contacts are swept by colours. In smaller ones the order of the contacts, from body to
 /// body, carries impulses farther in a sweep.
 constexpr std::size_t wide_contacts = 320;
@@ -20,46 +19,30 @@ constexpr std::size_t wide_contacts = 320;
 /// is not the last one.
 constexpr double safe_multiple = 4;
 
-/// Whether some contact closes faster than one at rest does, or more than a part of them slide or separate faster.
-bool isMoving(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies,
-              const ResolutionSettings& settings) {
-    const double threshold = settings.restitution_threshold;
-    std::size_t sliding = 0;
-    for (const std::uint32_t i : batch.contacts) {
-        const Vec3 velocity = relativeVelocity(contacts[i], bodies);
-        if (contacts[i].normal.dot(velocity) < -threshold) return true;
-        sliding += velocity.squaredNorm() > threshold * threshold ? 1 : 0;
+/// How deep contacts are that the correction has dealt with, as a multiple of the overlap allowed. Where they are
+/// deeper, impulses were not what the pile needs, and less error is tolerated by this power of the depth.
+constexpr double usual_depth = 0.7;
+constexpr int depth_power = 4;
+
+/// What contacts are, summed over a batch.
+struct ContactSums {
+    double mass = 0;    ///< reduced masses of the bodies [kg]
+    double motion = 0;  ///< with the squared velocities before the step's gravity [J]
+    double depth = 0;   ///< squared overlaps as multiples of what is allowed
+
+    /// The mass is that of the two bodies against each other as far as they can move.
+    void add(const Contact& contact, const BodyState& bodies) {
+        const double part = std::min(0.0, contact.distance) / contact.allowed_overlap;
+        depth += part * part;
+        const bool moves_a = !bodies.isImmovable(contact.a), moves_b = !bodies.isImmovable(contact.b);
+        const double inverse = (moves_a ? bodies.mass_inv[contact.a] : 0) + (moves_b ? bodies.mass_inv[contact.b] : 0);
+        if (!(inverse > 0)) return;
+        Vec3 velocity = relativeVelocity(contact, bodies);
+        if (moves_a != moves_b) velocity -= (moves_a ? 1 : -1) * bodies.fall;
+        mass += 1 / inverse;
+        motion += velocity.squaredNorm() / inverse;
     }
-    return static_cast<double>(sliding) > settings.sliding_part * static_cast<double>(batch.contacts.size());
-}
-
-/// The speed with which no body of the batch gets into another one by more than a few times what is allowed.
-double safeSpeed(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t i : batch.contacts) least = std::min(least, contacts[i].allowed_overlap);
-    return safe_multiple * least / bodies.time_step;
-}
-
-double changeByGravity(const BatchView& batch, const BodyState& bodies) {
-    double mass = 0;
-    for (const BodyIndex i : batch.bodies) mass += 1 / bodies.mass_inv[i];
-    return bodies.fall.norm() * std::sqrt(mass);
-}
-
-/// Impulses have a shorter way through small batches.
-std::int64_t movingSweepLimit(std::size_t contacts, const ResolutionSettings& settings) {
-    if (contacts >= large_contacts) return settings.moving_sweep_limit;
-    const double part = settings.small_sweep_part * static_cast<double>(settings.moving_sweep_limit);
-    return std::max(std::int64_t{1}, static_cast<std::int64_t>(std::ceil(part)));
-}
-
-/// Batches at rest are swept until they converge, large ones only as far as the budget goes.
-std::int64_t sweepLimit(std::size_t contacts, bool moving, const ResolutionSettings& settings) {
-    if (moving || contacts == 0) return movingSweepLimit(contacts, settings);
-    if (settings.visit_limit == 0) return settings.sweep_limit;
-    const std::int64_t affordable = settings.visit_limit / (2 * static_cast<std::int64_t>(contacts));
-    return std::min(std::max(affordable, settings.moving_sweep_limit), settings.sweep_limit);
-}
+};
 
 /// Whether a batch is a stack, a chain or an arch. Where bodies have more neighbours than there they stand on more
 /// contacts than they need, which share the load as their friction allows and not as the stiffest solution wants: then
@@ -83,31 +66,34 @@ bool isChain(const BatchView& batch, std::span<const Contact> contacts, const Bo
 BatchKind kindOf(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies,
                  const ResolutionSettings& settings) {
     BatchKind kind{.framed = !batch.joints.empty()};
+    ContactSums sums;
+    double least_allowed = std::numeric_limits<double>::infinity();
     for (const std::uint32_t i : batch.contacts) {
         const Contact& contact = contacts[i];
         kind.rolling += resistsRolling(contact) ? 1 : 0;
         kind.two_frictions = kind.two_frictions || contact.kinetic_friction < contact.static_friction;
+        least_allowed = std::min(least_allowed, contact.allowed_overlap);
+        sums.add(contact, bodies);
     }
+    const auto count = static_cast<double>(batch.contacts.size());
+    kind.motion = std::sqrt(sums.motion);
+    kind.depth = count > 0 ? std::sqrt(sums.depth / count) : 0;
+    kind.safe_way = safe_multiple * least_allowed;
     kind.framed = kind.framed || kind.rolling > 0;
-    kind.moving = isMoving(batch, contacts, bodies, settings);
-    kind.may_leap = !kind.moving && !kind.framed &&
-                    batch.bodies.size() <= static_cast<std::size_t>(settings.direct_limit) &&
+    const bool rests = sums.motion <= settings.restitution_threshold * settings.restitution_threshold * sums.mass;
+    kind.may_leap = rests && !kind.framed && batch.bodies.size() <= static_cast<std::size_t>(settings.direct_limit) &&
                     isChain(batch, contacts, bodies, settings.direct_pairs);
     kind.coloured = batch.contacts.size() >= wide_contacts && !kind.may_leap;
     return kind;
 }
 
-SweepPlan planOf(const BatchView& batch, const BatchKind& kind, std::span<const Contact> contacts,
-                 const BodyState& bodies, const ResolutionSettings& settings) {
-    if (kind.moving && settings.moving_tolerance > 0) {
-        return {.limit = settings.sweep_limit,
-                .steady_speed = settings.sweep_tolerance,
-                .tolerance = settings.moving_tolerance,
-                .safe_speed = safeSpeed(batch, contacts, bodies),
-                .change_by_gravity = changeByGravity(batch, bodies)};
-    }
-    return {.limit = sweepLimit(batch.contacts.size(), kind.moving, settings),
-            .steady_speed = settings.sweep_tolerance};
+SweepPlan planOf(const BatchKind& kind, const BodyState& bodies, const ResolutionSettings& settings) {
+    const double deeper = std::max(1.0, kind.depth / usual_depth);
+    return {.limit = settings.iterations,
+            .steady_speed = settings.sweep_tolerance,
+            .tolerance = settings.tolerance / std::pow(deeper, depth_power),
+            .safe_speed = kind.safe_way / bodies.time_step,
+            .motion = kind.motion};
 }
 
 }  // namespace cairn

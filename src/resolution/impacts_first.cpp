@@ -63,8 +63,8 @@ class ImpactsFirst final : public BatchResolution {
             return sequential_->resolve(batch, contacts, bodies, impacts, executor);
         }
         if (!simultaneous_) simultaneous_ = makeSweepsOfOne();
-        impacts.moving_sweep_limit = std::max(settings.moving_sweep_limit, simultaneous_sweeps);
-        impacts.small_sweep_part = 1;
+        impacts.iterations = std::max(settings.iterations, simultaneous_sweeps);
+        impacts.tolerance = 0;
         return simultaneous_->resolve(batch, contacts, bodies, impacts, executor);
     }
 

@@ -11,11 +11,11 @@ namespace cairn {
 
 /// How far a batch is swept.
 struct SweepPlan {
-    std::int64_t limit = 1;        ///< of sweeps
-    double steady_speed = 0;       ///< a sweep that changes no contact's velocity by more is the last one [m/s]
-    double tolerance = 0;          ///< part of the change that may be left; 0 = none
-    double safe_speed = 0;         ///< with which nothing gets far into another body in a step [m/s]
-    double change_by_gravity = 0;  ///< what gravity gives the bodies in a step, in the measure of SweepChange
+    std::int64_t limit = 1;   ///< of sweeps
+    double steady_speed = 0;  ///< a sweep that changes no contact's velocity by more is the last one [m/s]
+    double tolerance = 0;     ///< what may be left to change, as a part of the motion or of the first change; 0 = none
+    double safe_speed = 0;    ///< with which nothing gets far into another body in a step [m/s]
+    double motion = 0;        ///< how the contacts move, in the measure of SweepChange
 };
 
 /// The course of the sweeps over one batch. The change of the impulses by a sweep is taken as the negative gradient of
@@ -65,7 +65,7 @@ class SweepProgress {
         const double left = estimates_ == 0 ? change : change * rate / (1 - rate);
         last_ = change;
         if (estimates_++ == 0) first_ = change;
-        const double scale = estimates_ == 1 ? plan_.change_by_gravity : std::max(plan_.change_by_gravity, first_);
+        const double scale = estimates_ == 1 ? plan_.motion : std::max(plan_.motion, first_);
         return left <= plan_.tolerance * scale;
     }
 

@@ -76,7 +76,7 @@ void Sweeps<Number>::gather(std::span<const BatchView> batches, std::span<const 
         }
         course.range.body_end = bodies_.size();
         course.range.contact_end = contacts_.size();
-        course.plan = planOf(batch, kinds[n], contacts, bodies, settings);
+        course.plan = planOf(kinds[n], bodies, settings);
         course.progress = SweepProgress(course.plan);
         course.two_frictions = kinds[n].two_frictions;
         course.may_leap = kinds[n].may_leap;

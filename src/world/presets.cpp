@@ -11,20 +11,11 @@ namespace cairn {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> preset_names = {"performance", "accuracy", "thesis", "thesis_accuracy",
-                                                          "robust"};
+constexpr std::array<std::string_view, 4> preset_names = {"performance", "accuracy", "thesis", "thesis_accuracy"};
 
 /// Time steps per second that a preset's thresholds are given for.
 double ownSteps(Preset preset) {
     return preset == Preset::accuracy || preset == Preset::thesis_accuracy ? 960 : 240;
-}
-
-/// Longer time steps take more sweeps, so that the same simulated time costs about the same.
-/// @param longer than the preset's own, ≥ 1
-void sweepLongerSteps(ResolutionSettings& resolution, double longer) {
-    for (std::int64_t* limit : {&resolution.sweep_limit, &resolution.moving_sweep_limit, &resolution.visit_limit}) {
-        *limit = static_cast<std::int64_t>(std::ceil(longer * static_cast<double>(*limit)));
-    }
 }
 
 /// The defaults. @param scale |g|Δt as a multiple of that with 10 m/s² and the preset's own time step; below likewise
@@ -38,18 +29,12 @@ void setPerformance(Settings& s, double scale) {
 }
 
 void setAccuracy(Settings& s, double scale) {
-    s.detection.contact_margin = 1e-5;
-    s.correction.penetration_threshold = 0.1e-3;
-    s.correction.correction_rounds = 10;
+    s.correction.allowed_overlap = 0.83e-3;
     s.resolution.resolution_threshold = 5.2e-6 * scale;
     s.resolution.restitution_threshold = 11.5e-3 * scale;
     s.resolution.global_iterations = 0;
     s.resolution.shock_propagation = false;
-    s.resolution.sweep_limit = 100;
-    s.resolution.moving_sweep_limit = 20;
-    s.resolution.small_sweep_part = 1;
-    s.resolution.sliding_part = 1;
-    s.resolution.visit_limit = 0;
+    s.resolution.tolerance = 0.01;
     s.resolution.sweep_tolerance = 1e-8 * scale;
     s.resolution.direct_limit = 1000;
     s.resolution.direct_pairs = 0;
@@ -59,22 +44,19 @@ void setAccuracy(Settings& s, double scale) {
     s.gravity_damping.damping_threshold = 0;
 }
 
-/// The algorithms of the thesis, and none of what was added since: nothing begins with the last step's impulses, is
-/// held still, is spread, or is corrected again. All that its results depend on is named here, whatever the defaults
+/// The algorithms of the thesis, and none of what was added since: nothing is looked ahead for, begins with the last
+/// step's impulses or is held still. All that its results depend on is named here, whatever the defaults
 /// become.
 void setThesisAlgorithms(Settings& s) {
     s.detection.broad_phase = BroadPhaseKind::hash_grids;
     s.detection.speculative_contacts = false;
     s.correction.correction = CorrectionKind::propagated;
     s.correction.remaining_penetration = 0.7;
-    s.correction.spread_levels = 0;
-    s.correction.correction_rounds = 1;
     s.resolution.resolution = ResolutionKind::impulse_queue;
     s.resolution.order = ResolutionOrder::highest_closing_speed;
     s.resolution.restitution_law = RestitutionLaw::newton;
     s.resolution.restitution_speed = RestitutionSpeed::closing;
     s.resolution.impacts = Impacts::of_resolution;
-    s.resolution.moving_tolerance = 0;
     s.resolution.shock_iterations = 6;
     s.resolution.queue_switch = 64;
     s.resolution.wake_speed = 0;
@@ -82,21 +64,6 @@ void setThesisAlgorithms(Settings& s) {
     s.sleep.motion_limit = 3;
     s.integration.gyroscopic = true;
     s.integration.exact_flight = false;
-}
-
-/// Bodies are kept from flying into each other, what overlaps nevertheless is moved and turned apart by inverse masses,
-/// lengths follow from the sizes of bodies, and the effort from what is left to do.
-void setRobust(Settings& s, double scale) {
-    setPerformance(s, scale);
-    s.detection.contact_margin = 0;
-    s.detection.speculative_contacts = true;
-    s.correction.correction = CorrectionKind::position_sweeps;
-    s.correction.penetration_threshold = 0;
-    s.correction.correction_rounds = 1;
-    s.resolution.moving_tolerance = 0.4;
-    s.resolution.sweep_limit = 100;
-    s.resolution.visit_limit = 0;
-    s.integration.exact_flight = true;
 }
 
 /// "High performance solver settings". @source thesis §5.1
@@ -169,11 +136,7 @@ Settings Settings::preset(Preset preset, double steps_per_second, double gravity
         case Preset::thesis_accuracy:
             setThesisAccuracy(s, scale);
             break;
-        case Preset::robust:
-            setRobust(s, scale);
-            break;
     }
-    sweepLongerSteps(s.resolution, std::max(1.0, own_steps / s.steps_per_second));
     return s;
 }
 

@@ -109,12 +109,6 @@ const std::vector<SettingField>& settingTable() {
             "the same as part of the smaller body's smallest extent, where penetration_threshold is 0"),
         plain<&S::correction, &C::remaining_penetration>("remaining_penetration", "correction", "", 0.001, 0.999,
                                                          "part of the threshold that a correction leaves (2.5.4)"),
-        plain<&S::correction, &C::spread_levels>(
-            "spread_levels", "correction", "", 0, 16,
-            "attempts to spread overlaps that no candidate corrects; 0 = none, as in the thesis"),
-        plain<&S::correction, &C::correction_rounds>(
-            "correction_rounds", "correction", "", 1, 100,
-            "most detections and corrections in a step, where bodies were pushed into others; 1 as in the thesis"),
         choice<&S::resolution, &R::resolution, resolution_names>("resolution", "resolution",
                                                                  "algorithm of the contact resolution"),
         choice<&S::resolution, &R::order, order_names>("order", "resolution", "which closing contact is resolved next"),
@@ -140,24 +134,11 @@ const std::vector<SettingField>& settingTable() {
             "limit of each shock stage as a multiple of its contacts; 0 = unlimited"),
         plain<&S::resolution, &R::queue_switch>("queue_switch", "resolution", "contacts", 0, 1e9,
                                                 "batches with more contacts use the ordered queue (3.8)"),
-        plain<&S::resolution, &R::sweep_limit>(
-            "sweep_limit", "resolution", "", 1, 1e6,
-            "most sweeps, forth and back, of 'accelerated_sweeps' for batches at rest"),
-        plain<&S::resolution, &R::moving_sweep_limit>(
-            "moving_sweep_limit", "resolution", "", 1, 1e6,
-            "the same for batches where a contact closes faster than restitution_threshold"),
-        plain<&S::resolution, &R::moving_tolerance>(
-            "moving_tolerance", "resolution", "", 0, 1,
-            "batches that move are swept until about this part of the change is left; 0 = moving_sweep_limit sweeps"),
-        plain<&S::resolution, &R::small_sweep_part>(
-            "small_sweep_part", "resolution", "", 0, 1,
-            "part of moving_sweep_limit that is for batches of fewer than 1024 contacts, at least one sweep"),
-        plain<&S::resolution, &R::sliding_part>(
-            "sliding_part", "resolution", "", 0, 1,
-            "and for batches where more than this part of the contacts slide faster; 1 = never"),
-        plain<&S::resolution, &R::visit_limit>(
-            "visit_limit", "resolution", "", 0, 1e12,
-            "most visits of contacts, two per sweep, of batches at rest beyond moving_sweep_limit; 0 = unlimited"),
+        plain<&S::resolution, &R::iterations>("iterations", "resolution", "", 1, 1e6,
+                                              "most sweeps, forth and back, of 'accelerated_sweeps' over a batch"),
+        plain<&S::resolution, &R::tolerance>(
+            "tolerance", "resolution", "", 0, 1,
+            "a batch is swept until about so much is left to change, as a part of how its contacts move"),
         plain<&S::resolution, &R::sweep_tolerance>(
             "sweep_tolerance", "resolution", "m/s", 0, 1e3,
             "no more sweeps of 'accelerated_sweeps' once one changes no contact's velocity by more"),
@@ -198,9 +179,19 @@ const std::vector<SettingField>& settingTable() {
     return all;
 }
 
+/// Fields that have another name now.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> renamed_fields = {
+    std::pair("sweep_limit", "iterations"),     std::pair("moving_sweep_limit", "tolerance"),
+    std::pair("moving_tolerance", "tolerance"), std::pair("small_sweep_part", "tolerance"),
+    std::pair("sliding_part", "tolerance"),     std::pair("visit_limit", "tolerance"),
+    std::pair("spread_levels", "correction"),   std::pair("correction_rounds", "correction")};
+
 const SettingField& findField(std::string_view name) {
     for (const SettingField& field : settingTable()) {
         if (field.name == name) return field;
+    }
+    for (const auto& [before, now] : renamed_fields) {
+        if (name == before) throw InputError(fmt::format("there is no setting '{}' any more; use '{}'", name, now));
     }
     std::vector<std::string_view> names;
     for (const SettingField& field : settingTable()) names.push_back(field.name);
@@ -258,11 +249,6 @@ void requireTogether(const Settings& s, double gravity) {
         throw InputError(
             "restitution_law 'energetic' is a law of single impacts and cannot hold with impacts 'simultaneous'; set "
             "impacts to 'sequential' or restitution_law to 'newton'");
-    }
-    if (s.correction.correction == CorrectionKind::propagated && s.correction.penetration_threshold == 0) {
-        throw InputError(
-            "penetration_threshold 0 lets lengths follow from the sizes of bodies, which correction 'propagated' does "
-            "not; give a threshold in metres, or set correction to 'position_sweeps'");
     }
     const double speed = gravity * s.timeStep();
     if (!s.sleep.sleeping || gravity == 0) return;

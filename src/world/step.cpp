@@ -84,23 +84,13 @@ void correctBatches(WorldState& world) {
 void correctStage(WorldState& world) {
     StepData& data = world.data;
     const BodyState bodies = world.bodies.state();
-    const CorrectionSettings& settings = world.settings.correction;
     const bool traced = world.trace.tracing == Tracing::on;
     if (traced) world.trace.correction.assign(world.bodies.position.begin(), world.bodies.position.end());
-    const bool touching = world.settings.resolution.restitution_speed == RestitutionSpeed::touching;
-    if (touching) {
+    if (world.settings.resolution.restitution_speed == RestitutionSpeed::touching) {
         for (Contact& contact : data.contacts) contact.gap = contact.distance;
     }
     data.correction_counts.assign(world.corrections.size(), {});
     correctBatches(world);
-    // When bodies touched each other can be told from what the first detection found only.
-    const std::int64_t rounds = touching ? 1 : settings.correction_rounds;
-    for (std::int64_t round = 2; round <= rounds; ++round) {
-        if (!isAnyDisplaced(world.bodies, settings.penetration_threshold)) break;
-        detect(world);
-        buildBatchesStage(world);
-        correctBatches(world);
-    }
     if (!traced) return;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         world.trace.correction[i] = bodies.position[i] - world.trace.correction[i];

@@ -21,7 +21,6 @@ struct ContactScene : BodyStorage {
     ContactScene() {
         settings.penetration_threshold = 1e-9;
         settings.remaining_penetration = 0.5;
-        settings.spread_levels = 0;
     }
 
     BodyIndex add(BodyKind new_kind, const Vec3& at) {

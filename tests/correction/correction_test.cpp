@@ -47,29 +47,6 @@ TEST(PropagatedCorrection, LeavesWhatNoCandidateCorrectsAsItIs) {
     EXPECT_EQ(scene.contacts[1].distance, -8);
 }
 
-TEST(PropagatedCorrection, SpreadsADeepOverlapOverTheContactsAroundIt) {
-    ContactScene scene = wedgedBodies();
-    scene.settings.spread_levels = 8;
-    // 1.5 times the threshold is no use yet, but with 6 (and 0.75 of it remaining) one body can give way.
-    const CorrectionCounts counts = scene.correct();
-    EXPECT_EQ(counts.displaced, 1);
-    EXPECT_EQ(counts.uncorrected, 1);
-    EXPECT_DOUBLE_EQ(scene.contacts[1].distance, -4.5);
-    EXPECT_DOUBLE_EQ(scene.contacts[0].distance + scene.contacts[2].distance, -4.5);
-    // The deepest overlap shrinks until nothing is deeper than 1.5 times the threshold or no room is left.
-    for (int step = 0; step < 20; ++step) scene.correct();
-    for (const Contact& contact : scene.contacts) EXPECT_GE(contact.distance, -4.5);
-}
-
-TEST(PropagatedCorrection, SpreadsNothingUpTo114PercentOfTheThreshold) {
-    for (const auto& [depth, displaced] : {std::pair(1.14, 0), std::pair(1.141, 1)}) {
-        ContactScene scene = wedgedBodies();
-        scene.settings.spread_levels = 8;
-        scene.contacts[1].distance = -depth;
-        EXPECT_EQ(scene.correct().displaced, displaced) << depth;
-    }
-}
-
 TEST(PropagatedCorrection, WakesTheBodiesItMovesAndNoOthers_WakeCondition2) {
     ContactScene scene;
     const BodyIndex ground = scene.addFixed();

@@ -24,7 +24,7 @@ struct Pushing : ContactScene {
         const ContactsOfBodies table = contactsOfBodies();
         const BodyState bodies = state();
         search.reserve(bodies.size());
-        graph.reset(table, contacts, bodies, remaining());
+        graph.reset(table, contacts, bodies, settings.remaining_penetration);
         return search.run({body, other, CandidateKind::normal, displacement}, graph, limit);
     }
     Vec3 displacementOf(BodyIndex body) const { return search.share(body) * search.displacement(); }

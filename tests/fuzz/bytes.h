@@ -28,8 +28,7 @@ inline void boundWork(Settings& settings) {
     for (double* iterations : {&r.global_iterations, &r.shock_iterations}) {
         *iterations = *iterations == 0 ? most : std::min(*iterations, most);
     }
-    for (std::int64_t* sweeps : {&r.sweeps, &r.sweep_limit, &r.moving_sweep_limit})
-        *sweeps = std::min<std::int64_t>(*sweeps, 100);
+    for (std::int64_t* sweeps : {&r.sweeps, &r.iterations}) *sweeps = std::min<std::int64_t>(*sweeps, 100);
     settings.parallel.threads = 1;
 }
 

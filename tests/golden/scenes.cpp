@@ -101,9 +101,7 @@ Settings settingsOf(const Scene& scene, Kind kind, std::int64_t threads) {
         for (const auto& [name, value] : scene.settings) setField(settings, name, value);
     } else {
         SettingOverrides overrides;
-        overrides.preset = kind == Kind::accuracy ? Preset::accuracy
-                           : kind == Kind::robust ? Preset::robust
-                                                  : Preset::performance;
+        overrides.preset = kind == Kind::accuracy ? Preset::accuracy : Preset::performance;
         settings = settingsFor(scene, overrides);
     }
     settings.parallel.threads = threads;
@@ -127,8 +125,6 @@ std::string_view nameOf(Kind kind) {
             return "thesis";
         case Kind::thesis_accuracy:
             return "thesis_accuracy";
-        case Kind::robust:
-            return "robust";
     }
     throw std::logic_error("a kind of settings without a name");
 }

@@ -14,10 +14,9 @@
 namespace cairn::golden {
 
 /// The settings that scenes run with: the presets.
-enum class Kind { performance, accuracy, thesis, thesis_accuracy, robust };
+enum class Kind { performance, accuracy, thesis, thesis_accuracy };
 
-inline constexpr std::array kinds = {Kind::performance, Kind::accuracy, Kind::thesis, Kind::thesis_accuracy,
-                                     Kind::robust};
+inline constexpr std::array kinds = {Kind::performance, Kind::accuracy, Kind::thesis, Kind::thesis_accuracy};
 /// Those that every scene runs with.
 inline constexpr std::array kinds_of_all = {Kind::performance, Kind::accuracy, Kind::thesis};
 

@@ -17,7 +17,8 @@ TEST(AcceleratedSweeps, CarryTheWholeWeightOfATowerToTheGround) {
     const Scene scene = builtInScene("tower:5");
     Settings settings = accelerated(scene);
     settings.sleep.sleeping = false;
-    settings.resolution.sweep_limit = 200;
+    settings.resolution.iterations = 200;
+    settings.resolution.tolerance = 0;
     settings.resolution.sweep_tolerance = 1e-9;
     settings.resolution.resolution_threshold = 1e-9;
     SceneRun run(scene, settings);
@@ -33,7 +34,7 @@ TEST(AcceleratedSweeps, HoldAnAwakeTowerOfTenWithinAMillimetre) {
     const Scene scene = builtInScene("tower:10");
     Settings settings = accelerated(scene);
     settings.sleep.sleeping = false;
-    settings.resolution.sweep_limit = 30;
+    settings.resolution.iterations = 30;
     settings.resolution.resolution_threshold = 8e-6;
     SceneRun run(scene, settings);
     for (int i = 0; i < 20 * 240; ++i) run.step();

@@ -15,8 +15,8 @@ Settings accurate(ResolutionKind kind, double rate = 960) {
     settings.integration.exact_flight = true;
     settings.sleep.sleeping = false;
     settings.resolution.resolution = kind;
-    settings.resolution.sweep_limit = 1000;
-    settings.resolution.moving_sweep_limit = 1000;
+    settings.resolution.iterations = 1000;
+    settings.resolution.tolerance = 0;
     if (kind == ResolutionKind::accelerated_sweeps) settings.resolution.resolution_threshold *= 1e-3;
     return settings;
 }

@@ -16,10 +16,9 @@ ResolutionSettings sweeping() {
     ResolutionSettings settings = test::exactSettings();
     settings.resolution = ResolutionKind::accelerated_sweeps;
     settings.restitution_threshold = 1.1 * fall;
-    settings.sweep_limit = 20;
-    settings.moving_sweep_limit = 2000;
+    settings.iterations = 20;
+    settings.tolerance = 0;
     settings.sweep_tolerance = 1e-9;
-    settings.visit_limit = 0;
     settings.direct_limit = 1000;
     return settings;
 }
@@ -96,7 +95,6 @@ TEST(AcceleratedSweeps, KeepMomentumWithAndWithoutColours) {
         const Vec3 momentum = pile.momentum();
         const Vec3 angular = pile.angularMomentum();
         ResolutionSettings settings = sweeping();
-        settings.moving_sweep_limit = 20;
         const double energy = pile.energy();
         pile.resolve(settings);
         EXPECT_LT(pile.energy(), 0.99 * energy);
@@ -128,7 +126,7 @@ bool isSame(const Vec3& x, const Vec3& y) {
 
 TEST(AcceleratedSweeps, TreatFourPairsAtOnceAsEachAlone) {
     ResolutionSettings settings = sweeping();
-    settings.sweep_limit = settings.moving_sweep_limit = 1;
+    settings.iterations = 1;
     constexpr std::size_t pairs = 400;
     Pile all;
     all.addFixed();
@@ -158,7 +156,6 @@ TEST(AcceleratedSweeps, TreatFourPairsAtOnceAsEachAlone) {
 TEST(AcceleratedSweeps, GiveTheSameBitsOnAnyNumberOfThreads) {
     const Pile before = test::randomPile(8, 600, 3000, 5);
     ResolutionSettings settings = sweeping();
-    settings.moving_sweep_limit = 20;
     Pile one = before;
     one.resolve(settings);
     for (const int threads : {2, 3, 4, 8}) {
@@ -171,29 +168,30 @@ TEST(AcceleratedSweeps, GiveTheSameBitsOnAnyNumberOfThreads) {
     }
 }
 
-/// @return visits of a tower whose lowest box slides on the ground
-std::int64_t visitsOfSlidingTower(double sliding_part, double small_sweep_part) {
+/// @return sweeps over a tower whose boxes all move with a velocity, and whose contacts are so deep
+std::int64_t sweepsOfTower(const Vec3& velocity, double tolerance, double depth = 0) {
     Pile pile = towerOf(8, [](int) { return 1.0; });
-    for (BodyIndex box = 1; box < pile.v.size(); ++box) pile.v[box] += Vec3(1, 0, 0);
+    pile.gravity = Vec3(0, 0, -10);
+    for (BodyIndex box = 1; box < pile.v.size(); ++box) pile.v[box] += velocity;
+    for (Contact& contact : pile.contacts) contact.distance = -depth * contact.allowed_overlap;
     ResolutionSettings settings = sweeping();
     settings.direct_limit = 0;
-    settings.moving_sweep_limit = 4;
-    settings.small_sweep_part = small_sweep_part;
-    settings.sliding_part = sliding_part;
-    return pile.resolve(settings).global_iterations;
+    settings.tolerance = tolerance;
+    return pile.resolve(settings).global_iterations / (2 * static_cast<std::int64_t>(pile.contacts.size()));
 }
 
-TEST(AcceleratedSweeps, SweepWhatSlidesAsWhatMoves) {
-    // Four of 32 contacts slide.
-    EXPECT_EQ(visitsOfSlidingTower(0.1, 1), 2 * 4 * 32);
-    EXPECT_EQ(visitsOfSlidingTower(0.13, 1), 2 * 20 * 32);
-    EXPECT_EQ(visitsOfSlidingTower(1, 1), 2 * 20 * 32);
+TEST(AcceleratedSweeps, SweepWhatMovesAsFarAsItsMotionNeeds) {
+    const std::int64_t at_rest = sweepsOfTower(Vec3::Zero(), 0.4);
+    EXPECT_EQ(sweepsOfTower(Vec3(9, 0, 0), 0.4), 1);
+    EXPECT_GT(at_rest, 1);
+    EXPECT_LT(at_rest, sweepsOfTower(Vec3::Zero(), 0.01));
+    EXPECT_EQ(sweepsOfTower(Vec3(9, 0, 0), 0), 20) << "all that are allowed";
 }
 
-TEST(AcceleratedSweeps, SweepASmallBatchThatMovesLess) {
-    EXPECT_EQ(visitsOfSlidingTower(0.1, 0.5), 2 * 2 * 32);
-    EXPECT_EQ(visitsOfSlidingTower(0.1, 0.4), 2 * 2 * 32) << "rounded up";
-    EXPECT_EQ(visitsOfSlidingTower(0.1, 0), 2 * 1 * 32) << "once at least";
+TEST(AcceleratedSweeps, SweepMoreWhereBodiesAreDeepInEachOther) {
+    const Vec3 slow(0.3, 0, 0);
+    EXPECT_EQ(sweepsOfTower(slow, 0.4, 0.7), sweepsOfTower(slow, 0.4, 0)) << "as deep as a correction leaves them";
+    EXPECT_GT(sweepsOfTower(slow, 0.4, 2), sweepsOfTower(slow, 0.4, 0));
 }
 
 /// @return visits of a tower of 20 whose 19 pairs of boxes make 0.95 per box

@@ -44,6 +44,7 @@ struct Friction {
 class Pile : public BodyStorage {
   public:
     std::vector<Contact> contacts;
+    Vec3 gravity = Vec3::Zero();  ///< whose work in the step the velocities have already [m/s²]
 
     BodyIndex add(const Vec3& at, double m, const Mat3& inertia) {
         const BodyIndex i = addFixed(at);
@@ -76,6 +77,7 @@ class Pile : public BodyStorage {
         c.restitution = restitution;
         c.static_friction = friction.static_coefficient;
         c.kinetic_friction = friction.kinetic_coefficient;
+        c.allowed_overlap = 1e-3;
         contacts.push_back(c);
         return contacts.back();
     }
@@ -92,6 +94,8 @@ class Pile : public BodyStorage {
         std::iota(indices.begin(), indices.end(), 0U);
         const BatchView batch{bodies, indices, {}};
         BodyState all = state();
+        all.time_step = 1.0 / 240;
+        all.fall = gravity / 240;
         const bool parts = settings.resolution == ResolutionKind::accelerated_sweeps;
         Selection selection;
         selection.begin({{&batch, 1},

@@ -19,8 +19,8 @@ ResolutionSettings lawSettings(ResolutionKind kind) {
     settings.restitution_threshold = 1e-9;
     settings.global_iterations = 0;
     settings.shock_propagation = false;
-    settings.sweep_limit = 2000;
-    settings.moving_sweep_limit = 2000;
+    settings.iterations = 2000;
+    settings.tolerance = 0;
     settings.sweep_tolerance = 1e-12;
     settings.sweeps = 2000;
     return settings;

@@ -12,9 +12,7 @@ ResolutionSettings fewSweeps() {
     ResolutionSettings settings = test::exactSettings();
     settings.resolution = ResolutionKind::accelerated_sweeps;
     settings.restitution_threshold = 0.05;
-    settings.sweep_limit = 1;
-    settings.moving_sweep_limit = 1;
-    settings.visit_limit = 0;
+    settings.iterations = 1;
     settings.direct_limit = 0;
     return settings;
 }

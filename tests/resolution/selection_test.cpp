@@ -16,10 +16,9 @@ ResolutionSettings holdingSleepers(double speed = wake_speed) {
     ResolutionSettings settings = test::exactSettings();
     settings.resolution = ResolutionKind::accelerated_sweeps;
     settings.restitution_threshold = 0.05;
-    settings.sweep_limit = 1000;
-    settings.moving_sweep_limit = 1000;
+    settings.iterations = 1000;
+    settings.tolerance = 0;
     settings.sweep_tolerance = 1e-12;
-    settings.visit_limit = 0;
     settings.wake_speed = speed;
     return settings;
 }

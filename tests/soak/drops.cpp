@@ -94,8 +94,7 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "usage: cairn_drops THROWS SEED [PRESET [STEPS_PER_SECOND]]\n");
         return 2;
     }
-    const std::string preset = argc > 3 ? argv[3] : "robust";
+    const std::string preset = argc > 3 ? argv[3] : "performance";
     const double rate = argc > 4 ? std::atof(argv[4]) : 240;
-    const Preset chosen = preset == "performance" ? Preset::performance : Preset::robust;
-    return run(std::atoi(argv[1]), std::strtoull(argv[2], nullptr, 10), Settings::preset(chosen, rate));
+    return run(std::atoi(argv[1]), std::strtoull(argv[2], nullptr, 10), Settings::preset(presetNamed(preset), rate));
 }

@@ -16,8 +16,8 @@ Settings settingsOfTosses() {
     settings.integration.exact_flight = true;
     settings.sleep.sleeping = false;
     settings.resolution.resolution = ResolutionKind::accelerated_sweeps;
-    settings.resolution.sweep_limit = 1000;
-    settings.resolution.moving_sweep_limit = 1000;
+    settings.resolution.iterations = 1000;
+    settings.resolution.tolerance = 0;
     return settings;
 }
 

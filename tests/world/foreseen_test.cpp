@@ -11,7 +11,7 @@ namespace {
 constexpr double steps = 60;
 
 Settings foreseeing() {
-    Settings settings = Settings::preset(Preset::robust, steps);
+    Settings settings = Settings::preset(Preset::performance, steps);
     settings.sleep.sleeping = false;
     return settings;
 }
@@ -68,7 +68,7 @@ TEST(ForeseenContacts, AThinPlateDoesNotFlyThroughAnother) {
 TEST(ForeseenContacts, WhatFollowsSeesTheOneThatStops) {
     Scene scene;
     Settings exact = foreseeing();
-    exact.resolution.moving_tolerance = 1e-3;
+    exact.resolution.tolerance = 1e-3;
     scene.world.setSettings(exact);
     scene.world.setGravity(Vec3::Zero());
     scene.world.addBody(fixedAt(Box{Vec3(1, 1, 1)}, Vec3(1.5, 0, 0)));

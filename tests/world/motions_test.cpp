@@ -139,7 +139,9 @@ TEST(Motion, APistonLiftsWithItsWork) {
 }
 
 TEST(Motion, SleepersWakeWhenTheirGroundMoves) {
-    MovedTable t(Settings::preset(Preset::performance));
+    Settings settings = Settings::preset(Preset::performance);
+    settings.resolution.tolerance = 0.01;
+    MovedTable t(settings);
     const BodyId lower = t.box({0, 0, 0.1});
     const BodyId upper = t.box({0, 0, 0.3});
     t.run(2);
@@ -156,7 +158,8 @@ TEST(Motion, BaseExcitationAgreesWithInertialForces) {
     Settings settings = measured();
     settings.resolution.resolution_threshold = 1e-13;
     settings.resolution.sweep_tolerance = 1e-14;
-    settings.resolution.sweep_limit = settings.resolution.moving_sweep_limit = 1000;
+    settings.resolution.iterations = 1000;
+    settings.resolution.tolerance = 0;
     MovedTable shaken(settings);
     MovedTable inertial(settings);
     std::vector<BodyId> ids;

@@ -11,8 +11,6 @@ namespace {
 /// What the presets of the thesis have in common: its algorithms and nothing else.
 void expectTheThesissAlgorithms(const Settings& s) {
     EXPECT_EQ(s.correction.correction, CorrectionKind::propagated);
-    EXPECT_EQ(s.correction.spread_levels, 0);
-    EXPECT_EQ(s.correction.correction_rounds, 1);
     EXPECT_EQ(s.resolution.resolution, ResolutionKind::impulse_queue);
     EXPECT_EQ(s.resolution.order, ResolutionOrder::highest_closing_speed);
     EXPECT_EQ(s.resolution.restitution_law, RestitutionLaw::newton);
@@ -57,7 +55,7 @@ TEST(Presets, PerformanceAndAccuracyHaveTheThresholdsOfTheThesis) {
         const Settings s = Settings::preset(own);
         const Settings t = Settings::preset(of_thesis);
         EXPECT_EQ(s.steps_per_second, t.steps_per_second);
-        EXPECT_EQ(s.correction.penetration_threshold, t.correction.penetration_threshold);
+        EXPECT_EQ(s.correction.penetration_threshold, 0) << "lengths follow from the sizes of bodies";
         EXPECT_EQ(s.sleep.sleep_threshold, t.sleep.sleep_threshold);
         EXPECT_EQ(s.resolution.resolution_threshold, t.resolution.resolution_threshold);
         EXPECT_EQ(s.resolution.restitution_threshold, t.resolution.restitution_threshold);
@@ -75,7 +73,7 @@ TEST(Presets, SpeedThresholdsFollowGravityAndTimeStep) {
     const Settings slow = Settings::preset(Preset::performance, 60, 5);
     EXPECT_DOUBLE_EQ(slow.sleep.sleep_threshold, 8.33e-3 * 4 / 2);
     EXPECT_DOUBLE_EQ(slow.resolution.restitution_threshold, 45.8e-3 * 2);
-    EXPECT_EQ(slow.correction.penetration_threshold, 1.74e-3);
+    EXPECT_EQ(slow.correction.allowed_overlap, Settings().correction.allowed_overlap);
     const Settings thesis = Settings::preset(Preset::thesis, 60, 5);
     EXPECT_EQ(thesis.sleep.sleep_threshold, slow.sleep.sleep_threshold);
     EXPECT_EQ(thesis.gravity_damping.damping_threshold, slow.gravity_damping.damping_threshold);
@@ -130,6 +128,7 @@ std::string refusal(std::string_view name, std::string_view text) {
 
 TEST(Fields, BadValuesAreRefusedWithWhatIsAllowed) {
     EXPECT_NE(refusal("nonsense", "1").find("steps_per_second"), std::string::npos);
+    EXPECT_NE(refusal("sweep_limit", "9").find("'iterations'"), std::string::npos) << "its name until now";
     EXPECT_NE(refusal("threads", "0").find("within 1 and 1024"), std::string::npos);
     EXPECT_NE(refusal("threads", "1.5").find("whole number"), std::string::npos);
     EXPECT_NE(refusal("allowed_overlap", "0").find("1e-06"), std::string::npos) << refusal("allowed_overlap", "0");

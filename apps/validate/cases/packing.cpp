@@ -13,7 +13,6 @@ namespace {
 
 constexpr double width = 8 * grain;  ///< of the shaft
 constexpr int portion = 80;          ///< grains that are poured at once
-constexpr int sweeps = 20;           ///< of the resolution, at most
 
 bool isInside(const World& world, BodyId id, const Vec3& point) {
     const Pose pose = world.pose(id);
@@ -41,11 +40,6 @@ double solidFraction(Grains& grains) {
 
 double pack(const Shape& shape, double friction, std::uint64_t seed, const Plan& plan) {
     Settings settings = granularSettings();
-    // Smooth cubes that the preset's two sweeps do not stop are pushed back into place all the time, which shakes them
-    // together: their fraction is 0.04 higher then.
-    settings.resolution.sweep_limit = sweeps;
-    settings.resolution.moving_sweep_limit = sweeps;
-    settings.resolution.small_sweep_part = 1;
     Grains grains(settings, grainLaw(friction), grainLaw(friction), seed);
     grains.addWall(Vec3::UnitZ(), 0);
     grains.addShaft(width);
@@ -98,7 +92,7 @@ const Case packing{"packing",
                    "doi:10.1103/PhysRevE.82.061304)",
                    "800 grains of 10 cm poured, turned any way, into a shaft of 8 × 8 diameters in portions of 80; the "
                    "fraction is measured 1.5 diameters from the walls, as the mean of three fillings. Performance "
-                   "preset at 1/480 s with up to 20 sweeps and overlaps of at most 1 % of a grain.",
+                   "preset at 1/480 s with overlaps of at most 1 % of a grain.",
                    packing_case::run};
 
 }  // namespace cairn::validation
