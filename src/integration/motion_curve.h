@@ -22,6 +22,8 @@ class MotionCurve {
     Excursion at(double time) const;
     /// Whether it turns.
     bool turns() const;
+    /// Whether its velocity is the same at all times.
+    bool isEven() const { return std::holds_alternative<ConstantMotion>(motion_) && !turns(); }
 
   private:
     Excursion ofTable(const TableMotion& table, double time) const;

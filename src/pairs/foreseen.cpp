@@ -9,12 +9,9 @@ namespace cairn {
 
 namespace {
 
-/// A body that moves by less than this part of its inner radius in a time step cannot get far into another one.
+/// A body that moves by less than this part of its inner radius in a time step, or by less than it is allowed to overlap,
+/// cannot get far into another one.
 constexpr double least_way = 0.01;
-
-/// Bodies that would not overlap by more than this part of the smaller one's inner radius pass each other by: one that
-/// slides over a seam between two others is not to be stopped by the edge of the next.
-constexpr double least_depth = 0.03;
 
 MovingShape movingShape(const BodyStorage& bodies, BodyIndex i, const BodyAhead* ahead) {
     MovingShape shape{bodies.shape[i], bodies.shapePose(i), bodies.position[i]};
@@ -36,7 +33,8 @@ Pose poseAfter(const BodyStorage& bodies, BodyIndex i, const BodyAhead& ahead, d
 
 }  // namespace
 
-void lookAhead(const BodyStorage& bodies, const Foresight& foresight, BodyIndex i, BodyAhead& ahead) {
+void lookAhead(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, BodyAhead& ahead) {
+    const Foresight& foresight = range.foresight;
     ahead.way = ahead.now;
     ahead.v = bodies.v[i];
     ahead.turning = 0;
@@ -46,7 +44,8 @@ void lookAhead(const BodyStorage& bodies, const Foresight& foresight, BodyIndex 
     const bool ball = std::holds_alternative<Sphere>(bodies.shape[i]) && bodies.p_BS[i].isZero(0);
     if (!ball) ahead.turning = bodies.w[i].norm() * bodies.r_max[i];
     const double reach = foresight.time * (ahead.v.norm() + ahead.turning);
-    if (!(reach > least_way * bodies.r_min[i])) return;
+    const double r_min = bodies.r_min[i];
+    if (!(reach > std::min(least_way * r_min, range.overlapOf(r_min, r_min)))) return;
     ahead.reach = reach;
     const Vec3 way = ahead.v * foresight.time;
     const double turned = ahead.turning * foresight.time;
@@ -56,7 +55,7 @@ void lookAhead(const BodyStorage& bodies, const Foresight& foresight, BodyIndex 
 }
 
 bool PairAhead::wouldMeet() const {
-    const double depth = least_depth * std::min(bodies_.r_min[pair_.a], bodies_.r_min[pair_.b]);
+    const double depth = range_.overlapOf(bodies_.r_min[pair_.a], bodies_.r_min[pair_.b]);
     const bool both = a_.reach > 0 && b_.reach > 0;
     if (both && a_.way.overlaps(b_.way) && meetsWith(&a_, &b_, depth)) return true;
     if (a_.reach > 0 && a_.way.overlaps(b_.now) && meetsWith(&a_, nullptr, depth)) return true;
@@ -67,10 +66,10 @@ bool PairAhead::wouldMeet() const {
 bool PairAhead::meetsWith(const BodyAhead* a, const BodyAhead* b, double depth) const {
     const Vec3 together = (a != nullptr ? a->v : Vec3(Vec3::Zero())) - (b != nullptr ? b->v : Vec3(Vec3::Zero()));
     const double turning = (a != nullptr ? a->turning : 0) + (b != nullptr ? b->turning : 0);
-    const double way = foresight_.time * (together.norm() + turning);
+    const double way = range_.foresight.time * (together.norm() + turning);
     // Bodies that come closer by less than this either overlap at the end or only graze each other.
     if (way > std::min(bodies_.r_min[pair_.a], bodies_.r_min[pair_.b])) {
-        return overlapWithin(movingShape(bodies_, pair_.a, a), movingShape(bodies_, pair_.b, b), foresight_.time,
+        return overlapWithin(movingShape(bodies_, pair_.a, a), movingShape(bodies_, pair_.b, b), range_.foresight.time,
                              depth);
     }
     bool deep = false;
@@ -79,7 +78,7 @@ bool PairAhead::meetsWith(const BodyAhead* a, const BodyAhead* b, double depth) 
         for (std::size_t i = 0; i < found.size; ++i) deep = deep || found.points[i].distance < -depth;
     };
     const auto end = [&](BodyIndex i, const BodyAhead* ahead) {
-        return ahead != nullptr ? poseAfter(bodies_, i, *ahead, foresight_.time) : bodies_.shapePose(i);
+        return ahead != nullptr ? poseAfter(bodies_, i, *ahead, range_.foresight.time) : bodies_.shapePose(i);
     };
     forEachManifold(bodies_.shape[pair_.a], end(pair_.a, a), bodies_.shape[pair_.b], end(pair_.b, b), 0, manifold,
                     look);
@@ -88,7 +87,7 @@ bool PairAhead::meetsWith(const BodyAhead* a, const BodyAhead* b, double depth) 
 
 double PairAhead::way() const {
     if (!isAny()) return 0;
-    const double together = foresight_.time * ((a_.v - b_.v).norm() + a_.turning + b_.turning);
+    const double together = range_.foresight.time * ((a_.v - b_.v).norm() + a_.turning + b_.turning);
     return std::max({a_.reach, b_.reach, together});
 }
 
@@ -99,7 +98,7 @@ bool PairAhead::closes(const Vec3& point, const Vec3& normal, double distance) c
     };
     const double of_a = -along(a_, pair_.a);
     const double of_b = along(b_, pair_.b);
-    return distance < foresight_.time * std::max({of_a + of_b, of_a, of_b});
+    return distance < range_.foresight.time * std::max({of_a + of_b, of_a, of_b});
 }
 
 }  // namespace cairn

@@ -46,21 +46,23 @@ struct BodyAhead {
 };
 
 /// Fills in all but the bounds of now. @pre ahead.now
-void lookAhead(const BodyStorage& bodies, const Foresight& foresight, BodyIndex i, BodyAhead& ahead);
+void lookAhead(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, BodyAhead& ahead);
 
 /// Which contacts of one pair a detection reports.
 class PairAhead {
   public:
-    PairAhead(const BodyStorage& bodies, const Foresight& foresight, const BodyPair& pair,
+    PairAhead(const BodyStorage& bodies, const DetectionRange& range, const BodyPair& pair,
               std::span<const BodyAhead> ahead)
-        : bodies_(bodies), foresight_(foresight), pair_(pair), a_(ahead[pair.a]), b_(ahead[pair.b]) {}
+        : bodies_(bodies), range_(range), pair_(pair), a_(ahead[pair.a]), b_(ahead[pair.b]) {}
 
     /// Whether one of them moves far enough to look ahead.
     bool isAny() const { return a_.reach > 0 || b_.reach > 0; }
     /// Whether the bounds overlap now. @pre isAny()
     bool mayTouchNow() const { return a_.now.overlaps(b_.now); }
     /// Whether two bodies that do not touch would meet before the next detection, rather than pass each other by: with
-    /// the motion of both, or of one of them alone, as another body may stop the other.
+    /// the motion of both, or of one of them alone, as another body may stop the other. Those that would overlap by no
+    /// more than they are allowed pass: what slides over a seam between two others is not to be stopped by the edge of
+    /// the next.
     bool wouldMeet() const;
     /// How far they can come closer until then, likewise [m].
     double way() const;
@@ -72,7 +74,7 @@ class PairAhead {
     bool meetsWith(const BodyAhead* a, const BodyAhead* b, double depth) const;
 
     const BodyStorage& bodies_;
-    const Foresight& foresight_;
+    const DetectionRange& range_;
     const BodyPair& pair_;
     const BodyAhead& a_;
     const BodyAhead& b_;

@@ -155,7 +155,7 @@ void PairTable::findBounds(const PairsInput& input) {
             bounds_[i] = grown;
             if (range_.foresight.time == 0) continue;
             ahead_[i].now = grown;
-            lookAhead(bodies, range_.foresight, i, ahead_[i]);
+            lookAhead(bodies, range_, i, ahead_[i]);
             bounds_[i] = ahead_[i].way;
         }
     });
@@ -186,7 +186,7 @@ void PairTable::detectPairs(const PairsInput& input, std::span<const Contact> la
         } else {
             const auto before = pair.touches() ? last.subspan(pair.first, pair.count) : std::span<const Contact>();
             const std::size_t begin = part.found.size();
-            collidePair(input.bodies, pair, range_, {input.bodies, range_.foresight, pair, ahead_}, manifold,
+            collidePair(input.bodies, pair, range_, {input.bodies, range_, pair, ahead_}, manifold,
                         part.found);
             inheritImpulses(input.bodies, before, std::span(part.found).subspan(begin));
             pair.count = static_cast<std::uint32_t>(part.found.size() - begin);

@@ -1,6 +1,7 @@
 /// @file What a world keeps of motions by laws.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "body/body_fields.h"
@@ -15,6 +16,13 @@ struct DrivenBody {
     Pose pose{};                ///< of the shape's frame at that time [W]
     Vec3 pivot = Vec3::Zero();  ///< about which it turns [m, frame of the shape]
     std::shared_ptr<const MotionCurve> curve{};
+};
+
+/// How the moving laws that a body's batch touches carry it.
+enum class Carried : std::uint8_t {
+    not_at_all,
+    evenly,   ///< by a velocity that stays the same
+    unevenly  ///< by one that changes from step to step
 };
 
 /// The motion of the frame of a world.

@@ -27,8 +27,8 @@ bool isRunning(const FreeAxis& axis) {
 
 /// A motor that runs keeps its bodies awake, however slowly it moves them, and so does a law that carries them.
 bool isDriven(const WorldState& world, std::size_t group) {
-    const std::vector<std::uint8_t>& carried = world.data.carried;
-    const auto isCarried = [&](BodyIndex body) { return carried[body] != 0; };
+    const std::vector<Carried>& carried = world.data.carried;
+    const auto isCarried = [&](BodyIndex body) { return carried[body] != Carried::not_at_all; };
     if (!carried.empty() && std::ranges::any_of(world.data.joint_groups.bodiesOf(group), isCarried)) return true;
     return std::ranges::any_of(world.data.joint_groups.jointsOf(group),
                                [&](std::uint32_t j) { return std::ranges::any_of(world.joints[j].free, isRunning); });

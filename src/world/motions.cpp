@@ -42,17 +42,22 @@ void wakeCarried(WorldState& world) {
     StepData& data = world.data;
     BodyState bodies = world.bodies.state();
     bodies.surface = data.surface;
-    data.carried.assign(bodies.size(), 0);
-    std::vector<std::uint8_t> moved(data.batches.size(), 0);
-    const auto moves = [&](BodyIndex i) { return bodies.isFixed(i) && !isAtRest(bodies, i); };
+    data.carried.assign(bodies.size(), Carried::not_at_all);
+    std::vector<Carried> carried(data.batches.size(), Carried::not_at_all);
+    const auto carries = [&](BodyIndex i) {
+        if (!bodies.isFixed(i) || isAtRest(bodies, i)) return Carried::not_at_all;
+        const DrivenBody* driven = lawOf(world, i);
+        return driven == nullptr || driven->curve->isEven() ? Carried::evenly : Carried::unevenly;
+    };
     for (std::size_t i = 0; i < data.contacts.size(); ++i) {
         const Contact& contact = data.contacts[i];
-        if (moves(contact.a) || moves(contact.b)) moved[data.batches.batch_of_contact[i]] = 1;
+        Carried& batch = carried[data.batches.batch_of_contact[i]];
+        batch = std::max({batch, carries(contact.a), carries(contact.b)});
     }
-    for (std::size_t batch = 0; batch < moved.size(); ++batch) {
-        if (moved[batch] == 0) continue;
+    for (std::size_t batch = 0; batch < carried.size(); ++batch) {
+        if (carried[batch] == Carried::not_at_all) continue;
         for (const BodyIndex body : data.batches[batch].bodies) {
-            data.carried[body] = 1;
+            data.carried[body] = carried[batch];
             bodies.wake(body, WakeReason::changed);
         }
     }
@@ -131,8 +136,8 @@ void requireNoLaw(const WorldState& world, BodyIndex body) {
 }
 
 const DrivenBody* lawOf(const WorldState& world, BodyIndex body) {
-    const auto found = std::ranges::find(world.driven, body, &DrivenBody::body);
-    return found == world.driven.end() ? nullptr : &*found;
+    const auto found = std::ranges::lower_bound(world.driven, body, {}, &DrivenBody::body);
+    return found == world.driven.end() || found->body != body ? nullptr : &*found;
 }
 
 bool isDrivenByLaws(const WorldState& world) {

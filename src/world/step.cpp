@@ -69,7 +69,9 @@ void buildBatchesStage(WorldState& world) {
 void correctBatches(WorldState& world) {
     StepData& data = world.data;
     BodyState bodies = world.bodies.state();
-    bodies.acceleration = world.gravity + world.global_acceleration;
+    // What this lifts a body that bounces is in the account of its bounce.
+    const bool touching = world.settings.resolution.restitution_speed == RestitutionSpeed::touching;
+    if (!touching) bodies.acceleration = world.gravity + world.global_acceleration;
     data.schedule.forEach(world.executor, [&](std::uint32_t batch, int thread) {
         const auto t = static_cast<std::size_t>(thread);
         const CorrectionCounts counts = world.corrections[t]->correct(data.views[batch], data.contacts_of,
@@ -122,6 +124,10 @@ void velocityStage(WorldState& world) {
     measureIfAsked(world, Measured::damping);
     quarantine(world);
     if (exact) noteForced(world.bodies, world.executor, data.before);
+    // A law moves its body evenly within a step, so what is carried by it moves as evenly.
+    for (std::size_t i = 0; exact && i < data.carried.size(); ++i) {
+        if (data.carried[i] == Carried::unevenly) data.before.forced[i] = 0;
+    }
     if (touching) {
         noteTouching(world.bodies, world.settings.resolution.restitution_threshold, world.settings.timeStep(),
                      data.before, data.contacts);
@@ -185,7 +191,7 @@ std::span<const std::uint8_t> listNotSleeping(WorldState& world) {
     data.not_sleeping = data.jointed;
     data.not_sleeping.resize(world.bodies.slots(), 0);
     for (std::size_t i = 0; i < data.not_sleeping.size(); ++i) {
-        const bool is_carried = !data.carried.empty() && data.carried[i] != 0;
+        const bool is_carried = !data.carried.empty() && data.carried[i] != Carried::not_at_all;
         if (is_carried || floats(world.bodies.gravity_factor[i])) data.not_sleeping[i] = 1;
     }
     return data.not_sleeping;

@@ -71,7 +71,7 @@ struct StepData {
     std::vector<BodyPair> excluded;     ///< events: pairs that joints keep from touching, sorted
     std::vector<Sensed> sensed;         ///< detection: by sensor and body
     std::vector<Vec3> surface;          ///< velocities: [slots] of fixed bodies' surfaces [m/s, W]; or empty
-    std::vector<std::uint8_t> carried;  ///< velocities: [slots] 1 = in a batch that a moving law touches; or empty
+    std::vector<Carried> carried;       ///< velocities: [slots] by a moving law that their batch touches; or empty
     std::vector<std::uint8_t> not_sleeping;           ///< sleeping: [slots] 1 = does not fall asleep by itself
     std::vector<JointBlock> joint_blocks;             ///< resolution: batch after batch, in it group after group
     std::vector<std::uint32_t> joint_begin;           ///< resolution: [batches + 1] offsets into joint_blocks

@@ -70,7 +70,7 @@ TEST(BodyViews, CanBeReadWhenTheBodiesAreKeptElsewhereAndWhenTheWorldIsGone) {
     two->world.load(snapshot);
     two->world.step();
     EXPECT_EQ(second.centre_of_mass[1].z(), 5) << "what was loaded is none of its numbers";
-    EXPECT_EQ(two->world.bodyViews().centre_of_mass[1].z(), 1);
+    EXPECT_NEAR(two->world.bodyViews().centre_of_mass[1].z(), 1, 1e-3);
     two.reset();
     EXPECT_EQ(first.centre_of_mass[1].z(), 5);
     EXPECT_EQ(second.centre_of_mass[1002].x(), 999);

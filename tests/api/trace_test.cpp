@@ -18,7 +18,8 @@ TEST(Trace, TellsBoundsLevelCorrectionAndShockStage) {
         const BodyTrace trace = world.trace(run.ids()[static_cast<std::size_t>(i)]);
         EXPECT_EQ(trace.shock_stage, i - 1);
         EXPECT_GE(trace.level, 0);
-        EXPECT_NEAR(trace.bounds_upper.z(), 0.1 * i + settings.detection.contact_margin, 1e-12);
+        // A sixteenth of the overlap that two boxes of 10 cm are allowed.
+        EXPECT_NEAR(trace.bounds_upper.z(), 0.1 * i + settings.correction.allowed_overlap * 0.1 / 16, 1e-12);
         EXPECT_EQ(trace.correction, Vec3::Zero());
     }
     const BodyId lowest = run.ids()[1];

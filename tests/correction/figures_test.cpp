@@ -322,7 +322,7 @@ TEST(Figure13, WithoutARemainingOverlapAllFourSpheresMove) {
 
 TEST(Figure13, AllowingSmallOverlapsStopsAfterTwoSpheres) {
     FourSpheres scene;
-    scene.settings.penetration_threshold = 1.74e-3;
+    for (Contact& contact : scene.contacts) contact.allowed_overlap = 1.74e-3;
     expectCounts(scene.correct(), 1, 1, 2);
     EXPECT_NEAR(scene.position[scene.spheres[0]].x(), 1.13e-3, 1e-15);
     EXPECT_NEAR(scene.position[scene.spheres[1]].x(), 0.26e-3, 1e-15);

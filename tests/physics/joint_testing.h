@@ -14,7 +14,7 @@ inline Settings undamped(double steps_per_second = 960) {
     Settings settings = Settings::preset(Preset::accuracy, steps_per_second);
     settings.gravity_damping.damping = 0;
     settings.sleep.sleeping = false;
-    settings.integration.exact_flight = true;
+    settings.resolution.tolerance = 0;
     return settings;
 }
 
