@@ -87,7 +87,7 @@ struct ResolutionSettings {
     /// A batch is swept until what all further sweeps would change is estimated to be no more than this part of how its
     /// contacts move, 0 to 1: exactly where it lies still. Less is left where bodies are in each other deeper than
     /// allowed. 0 = until sweep_tolerance.
-    double tolerance = 0.4;
+    double tolerance = 0.25;
     double sweep_tolerance = 1e-6;    ///< no more sweeps once a sweep changes no contact's velocity by more [m/s]
     std::int64_t direct_limit = 100;  ///< batches at rest of up to so many bodies may take direct steps; 0 = none
     double direct_pairs = 1.5;        ///< and of up to so many pairs in touch per body: stacks and chains; 0 = any

@@ -48,7 +48,7 @@ void collidePair(const BodyStorage& bodies, const BodyPair& pair, const Detectio
             const Vec3& point = found.points[k].point;
             const double distance = found.points[k].distance;
             const double apart = distance - margin;
-            touches = touches || distance <= 0 || (apart <= 0 && !ahead.isAny());
+            touches = touches || apart <= 0;
             if (apart > 0 && !ahead.closes(point, found.normal, apart)) continue;
             const auto others = std::span(contacts).subspan(first, earlier);
             if (mergeInto(others, point, found.normal, distance, size)) continue;

@@ -169,9 +169,13 @@ void resolveStage(WorldState& world) {
                   (world.gravity + world.global_acceleration);
     applyPairLaws(world, bodies);
     buildJointBlocks(world);
+    // Asked before a driven joint may break in this very step.
+    const bool weighed = world.checks == Checks::on && mustKeepEnergy(world);
+    const double energy = weighed ? kineticEnergyOf(world.bodies) : 0;
     resolveChosen(world, bodies);
     finishJoints(world);
     quarantine(world);
+    if (weighed) checkEnergy(world, energy);
     measureIfAsked(world, Measured::resolution);
     if (world.settings.integration.exact_flight) {
         completeSmoothMotion(world.bodies, data.before, data.jointed, world.settings.timeStep(), world.executor);
@@ -254,11 +258,7 @@ void stepWorld(WorldState& world) {
     timed(statistics, Stage::correction, [&] { correctStage(world); });
     measureIfAsked(world, Measured::correction);
     timed(statistics, Stage::velocities, [&] { velocityStage(world); });
-    // Asked before a driven joint may break in this very step.
-    const bool weighed = world.checks == Checks::on && mustKeepEnergy(world);
-    const double energy = weighed ? kineticEnergyOf(world.bodies) : 0;
     timed(statistics, Stage::resolution, [&] { resolveStage(world); });
-    if (weighed) checkEnergy(world, energy);
     timed(statistics, Stage::sleeping, [&] { sleepStage(world); });
     measureIfAsked(world, Measured::sleep);
     timed(statistics, Stage::output, [&] { outputStage(world); });

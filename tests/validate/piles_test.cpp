@@ -1,4 +1,4 @@
-/// Piles of the preset robust come to rest: deep ones, at few steps per second, of tiny bodies and of awkward shapes.
+/// Piles come to rest: deep ones, at few steps per second, of tiny bodies and of awkward shapes.
 #include "validate/piles.h"
 
 #include <gtest/gtest.h>

@@ -95,12 +95,12 @@ TEST(LiveWorld, TheDialGoesFromPresetToPreset) {
     EXPECT_EQ(world.dial(), 0.0);
     world.setDial(1);
     EXPECT_EQ(world.world().settings().steps_per_second, 960);
-    EXPECT_EQ(world.world().settings().correction.penetration_threshold,
-              Settings::preset(Preset::accuracy).correction.penetration_threshold);
+    const double fine = Settings::preset(Preset::accuracy).correction.allowed_overlap;
+    EXPECT_EQ(world.world().settings().correction.allowed_overlap, fine);
     world.setDial(0.5);
     const Settings middle = world.world().settings();
     EXPECT_EQ(middle.steps_per_second, 480);
-    EXPECT_NEAR(middle.correction.penetration_threshold, std::sqrt(1.74e-3 * 1e-4), 1e-9);
+    EXPECT_NEAR(middle.correction.allowed_overlap, std::sqrt(0.0145 * fine), 1e-9);
     world.setField({"damping", 0.1});
     EXPECT_EQ(world.dial(), std::nullopt);
     EXPECT_THROW(world.setField({"damping", 7.0}), InputError);
