@@ -15,10 +15,10 @@ namespace cairn {
 
 /// Where all fields begin.
 enum class Preset {
-    performance,      ///< for real time
-    accuracy,         ///< the other end of the dial between speed and truth
-    thesis,           ///< the thesis's algorithms with its high performance settings. @source thesis §5.1
-    thesis_accuracy   ///< and with its high accuracy settings. @source thesis §5.5
+    performance,     ///< for real time
+    accuracy,        ///< the other end of the dial between speed and truth
+    thesis,          ///< the thesis's algorithms with its high performance settings. @source thesis §5.1
+    thesis_accuracy  ///< and with its high accuracy settings. @source thesis §5.5
 };
 
 /// The name of each preset, in the order of the enumeration, as in scene files and `--preset`.
@@ -113,7 +113,7 @@ struct GravityDampingSettings {
 
 /// Motion of free bodies.
 struct IntegrationSettings {
-    bool gyroscopic = true;     ///< torque-free rotation keeps its angular momentum (Euler's equations)
+    bool gyroscopic = true;    ///< torque-free rotation keeps its angular momentum (Euler's equations)
     bool exact_flight = true;  ///< smooth motion follows the mean of a step's velocities: free bodies, the parabola
 };
 

@@ -43,8 +43,7 @@ void bindEnum(py::module_& module, std::initializer_list<const char*> names, con
 }
 
 void bindEnumsOfSettings(py::module_& module) {
-    bindEnum<Preset>(module, {"performance", "accuracy", "thesis", "thesis_accuracy"},
-                     "Where all settings begin.");
+    bindEnum<Preset>(module, {"performance", "accuracy", "thesis", "thesis_accuracy"}, "Where all settings begin.");
     bindEnum<BroadPhaseKind>(module, {"hash_grids", "all_pairs"}, "How candidates for contacts are found.");
     bindEnum<CorrectionKind>(module, {"propagated", "none", "position_sweeps"}, "Which penetration correction runs.");
     bindEnum<ResolutionKind>(module, {"impulse_queue", "sweep", "accelerated_sweeps", "none"},

@@ -63,8 +63,8 @@ CorrectionCounts PropagatedCorrection::correct(const BatchView& batch, const Con
         counts.displaced += moveBodies(best_, bodies);
         updateContacts(best_, contacts_of, contacts, graph_);
     }
-    counts.uncorrected = std::ranges::count_if(
-        penetrating_, [&](std::uint32_t index) { return penetrates(contacts[index]); });
+    counts.uncorrected =
+        std::ranges::count_if(penetrating_, [&](std::uint32_t index) { return penetrates(contacts[index]); });
     counts.corrected = counts.penetrating - counts.uncorrected;
     return counts;
 }

@@ -32,7 +32,8 @@ void PushGraph::pack(BodyIndex body) {
         const bool is_a = contact.a == body;
         const BodyIndex neighbour = is_a ? contact.b : contact.a;
         const Vec3 direction = is_a ? Vec3(-contact.normal) : contact.normal;  // n points from B to A
-        *link++ = {direction, contact.distance + remaining_ * contact.allowed_overlap, neighbour, kind_[neighbour] != BodyKind::dynamic};
+        *link++ = {direction, contact.distance + remaining_ * contact.allowed_overlap, neighbour,
+                   kind_[neighbour] != BodyKind::dynamic};
     }
     nodes_[body].count = static_cast<std::uint32_t>(indices.size());
     nodes_[body].packed = round_;

@@ -9,8 +9,8 @@ namespace cairn {
 
 namespace {
 
-/// A body that moves by less than this part of its inner radius in a time step, or by less than it is allowed to overlap,
-/// cannot get far into another one.
+/// A body that moves by less than this part of its inner radius in a time step, or by less than it is allowed to
+/// overlap, cannot get far into another one.
 constexpr double least_way = 0.01;
 
 MovingShape movingShape(const BodyStorage& bodies, BodyIndex i, const BodyAhead* ahead) {

@@ -186,8 +186,7 @@ void PairTable::detectPairs(const PairsInput& input, std::span<const Contact> la
         } else {
             const auto before = pair.touches() ? last.subspan(pair.first, pair.count) : std::span<const Contact>();
             const std::size_t begin = part.found.size();
-            collidePair(input.bodies, pair, range_, {input.bodies, range_, pair, ahead_}, manifold,
-                        part.found);
+            collidePair(input.bodies, pair, range_, {input.bodies, range_, pair, ahead_}, manifold, part.found);
             inheritImpulses(input.bodies, before, std::span(part.found).subspan(begin));
             pair.count = static_cast<std::uint32_t>(part.found.size() - begin);
             part.add(begin, pair.count, false);

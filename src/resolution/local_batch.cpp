@@ -119,7 +119,8 @@ void LocalBatch::turn(const ContactFrame& c, const Vec3& impulse) {
 }
 
 void LocalBatch::updateRolling(const ContactFrame& c) {
-    rolling[c.rolling].k = joints.holds(c) ? joints.wrenchMatrix(c, bodies) : wrenchMatrix(c, bodies[c.a], bodies[c.b]);
+    rolling[c.rolling].setMatrix(joints.holds(c) ? joints.wrenchMatrix(c, bodies)
+                                                 : wrenchMatrix(c, bodies[c.a], bodies[c.b]));
 }
 
 void LocalBatch::scatterBodies(const BodyState& state) const {

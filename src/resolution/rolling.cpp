@@ -31,19 +31,14 @@ bool isWithin(const RollingContact& contact, double friction, const Vec6& x) {
 class Turns {
   public:
     Turns(const RollingContact& contact, double friction, const Vec6& excess, const Vec6& present)
-        : contact_(contact),
-          friction_(friction),
-          slide_step_(1 / largestEigenvalue(contact.k, slide_rows)),
-          roll_step_(1 / largestEigenvalue(contact.k, roll_rows)),
-          x(present),
-          c_(excess) {}
+        : contact_(contact), friction_(friction), x(present), c_(excess) {}
 
     void turn() {
         set(normal_row, std::max(0.0, x[normal_row] - c_[normal_row] / contact_.k(normal_row, normal_row)));
-        move2(slide_rows, slide_step_, friction_ * x[normal_row]);
+        move2(slide_rows, contact_.slide_mass, friction_ * x[normal_row]);
         const double spin = contact_.spinning * x[normal_row];
         set(spin_row, std::clamp(x[spin_row] - c_[spin_row] / contact_.k(spin_row, spin_row), -spin, spin));
-        move2(roll_rows, roll_step_, contact_.rolling * x[normal_row]);
+        move2(roll_rows, contact_.roll_mass, contact_.rolling * x[normal_row]);
     }
 
   private:
@@ -62,7 +57,6 @@ class Turns {
 
     const RollingContact& contact_;
     double friction_;
-    double slide_step_, roll_step_;
 
   public:
     Vec6 x;
@@ -84,6 +78,13 @@ Vec6 inTurns(const RollingContact& contact, double friction, const Vec6& excess,
 
 }  // namespace
 
+void RollingContact::setMatrix(const Mat6& matrix) {
+    k = matrix;
+    mass = k.ldlt().solve(Mat6::Identity());
+    slide_mass = 1 / largestEigenvalue(k, slide_rows);
+    roll_mass = 1 / largestEigenvalue(k, roll_rows);
+}
+
 Mat6 wrenchMatrix(const ContactFrame& frame, const LocalBody& a, const LocalBody& b) {
     Mat6 k = Mat6::Zero();
     const auto add = [&](const LocalBody& body, const Vec3& r) {
@@ -102,7 +103,10 @@ Mat6 wrenchMatrix(const ContactFrame& frame, const LocalBody& a, const LocalBody
 
 Vec6 solveRolling(const RollingContact& contact, double static_friction, double sliding_friction, const Vec6& excess,
                   const Vec6& present, RollingRounds rounds) {
-    const Vec6 rigid = present - contact.k.ldlt().solve(excess);
+    // What is solved in every visit takes the inverse, what is solved once the factorization.
+    const Vec6 change =
+        rounds == RollingRounds::few ? Vec6(contact.mass * excess) : Vec6(contact.k.ldlt().solve(excess));
+    const Vec6 rigid = present - change;
     if (rigid.allFinite() && isWithin(contact, static_friction, rigid)) return rigid;
     const Vec6 held = inTurns(contact, static_friction, excess, present, rounds);
     const double most = static_friction * held[normal_row];
@@ -118,7 +122,7 @@ Vec3 rollingImpulse(const RollingContact& contact, double normal_impulse, const 
     if (!stop.allFinite()) return Vec3::Zero();
     if (std::abs(stop[0]) <= spin && stop[1] * stop[1] + stop[2] * stop[2] <= roll * roll) return stop;
     Vec3 t = Vec3::Zero();
-    const double step = 1 / largestEigenvalue(contact.k, roll_rows);
+    const double step = contact.roll_mass;
     for (int i = 0; i < static_cast<int>(RollingRounds::many); ++i) {
         t[0] = std::clamp(t[0] - (angular_velocity + k * t)[0] / k(0, 0), -spin, spin);
         const Vec3 c = angular_velocity + k * t;

@@ -17,7 +17,13 @@ struct RollingContact {
     double rolling = 0;             ///< [m]: torque against rolling is at most this times the normal force
     double spinning = 0;            ///< [m]: torque about the normal likewise
     Mat6 k = Mat6::Identity();      ///< [1/kg, 1/(kg·m), 1/(kg·m²)]
+    Mat6 mass = Mat6::Identity();   ///< inverse of k; not finite where there is none
+    double slide_mass = 0;          ///< least effective mass of the tangential part [kg]
+    double roll_mass = 0;           ///< and least effective inertia of rolling [kg·m²]
     Vec3 impulse_W = Vec3::Zero();  ///< sum of the angular impulses on A [N·m·s, W]
+
+    /// Sets k and what follows from it.
+    void setMatrix(const Mat6& matrix);
 };
 
 /// K of linear and angular impulses together, without joints.
@@ -31,7 +37,7 @@ inline Vec6 relativeTwist(const ContactFrame& frame, const LocalBody& a, const L
 }
 
 /// How finely solveRolling() works.
-enum class RollingRounds { few = 8, many = 400 };
+enum class RollingRounds { few = 2, many = 400 };
 
 /// The accumulated impulse of a contact that neither closes, slides, spins nor rolls, as far as the friction cone and
 /// the bounds of the torques allow. @param excess velocity with the present impulse, less what the contact shall have

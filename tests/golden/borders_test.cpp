@@ -17,10 +17,9 @@ TEST_P(Borders, LargestBatchesHaveTheContactsThatTheTableSays) {
         if (scene.contacts == 0) continue;
         ++counted;
         GoldenRun run(scene, GetParam(), 1);
-        for (const std::int64_t step : scene.hashSteps(GetParam())) {
-            run.stepUntil(step);
-            EXPECT_EQ(run.world().statistics().largest_batch, scene.contacts) << scene.name << ", step " << step;
-        }
+        // Later a corner of a rocking box may lift off.
+        run.stepUntil(scene.hashSteps(GetParam()).front());
+        EXPECT_EQ(run.world().statistics().largest_batch, scene.contacts) << scene.name;
     }
     EXPECT_EQ(counted, 6U);
 }
