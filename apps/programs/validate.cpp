@@ -3,12 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include "cli/companions.h"
 #include "cli/interrupt.h"
 #include "cli/output.h"
 #include "cli/program.h"
+#include "validate/pile_suite.h"
 
 namespace cairn::cli {
 
@@ -53,7 +57,70 @@ int runValidate(const ValidateArguments& arguments) {
     }
 }
 
+struct PilesArguments {
+    std::string part;
+    std::string json;
+    bool quick = false;
+    bool list = false;
+};
+
+/// The piles of a part as 2/4, or all. @throws InputError
+std::vector<validation::Pile> pilesOf(const PilesArguments& arguments) {
+    const std::vector<validation::Pile> piles = arguments.quick ? validation::quickPiles() : validation::pileSuite();
+    if (arguments.part.empty()) return piles;
+    std::size_t part = 0;
+    std::size_t parts = 0;
+    const std::string_view text = arguments.part;
+    const auto [slash, error] = std::from_chars(text.data(), text.data() + text.size(), part);
+    const bool divided = error == std::errc() && slash != text.data() + text.size() && *slash == '/';
+    const bool whole = divided && std::from_chars(slash + 1, text.data() + text.size(), parts).ptr == text.end();
+    if (!whole) throw InputError(fmt::format("part '{}'; give it as 2/4, the second of four", text));
+    return validation::partOf(piles, part, parts);
+}
+
+int runPiles(const PilesArguments& arguments) {
+    const std::vector<validation::Pile> piles = pilesOf(arguments);
+    if (arguments.list) {
+        for (const validation::Pile& pile : piles) printOut(validation::nameOf(pile) + "\n");
+        return fine;
+    }
+    // Said before hours of work rather than after.
+    if (!arguments.json.empty()) TextFile(arguments.json).write("[]\n");
+    noteInterrupts();
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    std::size_t met = 0;
+    try {
+        for (const validation::Pile& pile : piles) {
+            const validation::PileResult result = validation::runPile(
+                pile, [](Settings&) {},
+                [](const World&) {
+                    if (interrupted()) throw validation::Interrupted{};
+                });
+            printOut(validation::lineOf(pile, result) + "\n");
+            rows.push_back(validation::rowOf(pile, result));
+            met += validation::missedBy(pile, result).empty() ? 1 : 0;
+            if (!arguments.json.empty()) TextFile(arguments.json).write(rows.dump(1) + "\n");
+        }
+    } catch (const validation::Interrupted&) {
+        printError(fmt::format("interrupted after {} of {} piles", rows.size(), piles.size()));
+        return run_failed;
+    }
+    printOut(fmt::format("{} of {} piles met all bounds\n", met, piles.size()));
+    return met == piles.size() ? fine : run_failed;
+}
+
+void addPiles(CLI::App& validate, int& exit_code) {
+    CLI::App* command = validate.add_subcommand("piles", "Pour piles of all kinds and judge how they come to rest");
+    auto arguments = std::make_shared<PilesArguments>();
+    command->add_flag("--list", arguments->list, "Name the piles and end");
+    command->add_flag("--quick", arguments->quick, "24 small ones");
+    command->add_option("--part", arguments->part, "The I-th of N parts, for several machines")->type_name("I/N");
+    command->add_option("--json", arguments->json, "Write a row per pile")->type_name("FILE");
+    command->callback([arguments, &exit_code] { exit_code = runPiles(*arguments); });
+}
+
 void addOptions(CLI::App& command, int& exit_code) {
+    addPiles(command, exit_code);
     auto arguments = std::make_shared<ValidateArguments>();
     command.add_option("--only", arguments->only, "Cases or groups by name, renewed in the page; default: all")
         ->delimiter(',');
@@ -63,7 +130,9 @@ void addOptions(CLI::App& command, int& exit_code) {
         ->delimiter(',');
     command.add_flag("--quick", arguments->quick, "Coarser and shorter: for a first look");
     command.add_flag("--list", arguments->list, "Name the cases and end");
-    command.callback([arguments, &exit_code] { exit_code = runValidate(*arguments); });
+    command.callback([&command, arguments, &exit_code] {
+        if (command.get_subcommands().empty()) exit_code = runValidate(*arguments);
+    });
 }
 
 }  // namespace

@@ -197,12 +197,6 @@ double firstEnergy(const Poured& poured) {
 
 }  // namespace
 
-bool PileResult::met(const Pile& pile) const {
-    const bool rests = pile.friction > 0 ? rest_time >= 0 && rest_time <= allowed_time : motion <= 1e-3;
-    const double allowed_fall = way > 1 ? 0.2 : 0.1;
-    return gain <= 1e-3 && rests && lost == 0 && rest_overlap <= 0.02 && fall_overlap <= allowed_fall;
-}
-
 std::string nameOf(PileShape shape) {
     constexpr std::array<const char*, 8> names = {"box",      "ball", "plate",    "rod",
                                                   "cylinder", "hull", "compound", "mixed"};

@@ -49,8 +49,6 @@ struct PileResult {
     double visits = 0;        ///< mean visits of contacts in a step
     double ns_per_visit = 0;  ///< time of the resolution per visit [ns]
     std::size_t steps = 0;
-
-    bool met(const Pile& pile) const;
 };
 
 std::string nameOf(PileShape shape);

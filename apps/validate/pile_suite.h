@@ -1,0 +1,32 @@
+/// @file The piles of `cairn validate piles`: factors that are covered in pairs, a row for each, and what is missed.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "validate/piles.h"
+
+namespace cairn::validation {
+
+/// At least 120 piles, among which every two values of two factors that go together occur: the same in every run.
+/// @source pairwise testing: Cohen, Dalal, Fredman, Patton: The AETG system, IEEE Trans. Softw. Eng. 23 (1997)
+std::vector<Pile> pileSuite();
+
+/// The first 24 of the small ones, for the tests and for a first look.
+std::vector<Pile> quickPiles();
+
+/// Every n-th pile, beginning with the i-th, so that machines can share the work. @param part from 1 to parts
+/// @throws InputError outside the range
+std::vector<Pile> partOf(const std::vector<Pile>& piles, std::size_t part, std::size_t parts);
+
+/// What a result misses, in words; empty if it meets all bounds.
+std::vector<std::string> missedBy(const Pile& pile, const PileResult& result);
+
+/// A line for a person.
+std::string lineOf(const Pile& pile, const PileResult& result);
+/// The factors, the seed, the measured values and what is missed.
+nlohmann::ordered_json rowOf(const Pile& pile, const PileResult& result);
+
+}  // namespace cairn::validation
