@@ -134,6 +134,12 @@ Excursion MotionCurve::ofTable(const TableMotion& table, double time) const {
     return {interpolate(table.displacements, velocities_, i, s, step), interpolate(table.turns, spins_, i, s, step)};
 }
 
+std::optional<double> MotionCurve::end() const {
+    const auto* table = std::get_if<TableMotion>(&motion_);
+    if (table == nullptr || table->end == TableEnd::repeat) return {};
+    return table->times.back();
+}
+
 bool MotionCurve::turns() const {
     if (const auto* constant = std::get_if<ConstantMotion>(&motion_)) return !constant->spin.isZero(0);
     if (const auto* sine = std::get_if<SineMotion>(&motion_)) return !sine->turn.isZero(0);

@@ -210,6 +210,7 @@ TEST(Motion, GoesOnFromSnapshotsAndMoments) {
     frame.times = {0, 1, 2};
     frame.displacements = {Vec3(0, 0, 0), Vec3(0, 0.1, 0), Vec3(0, 0, 0)};
     t.world.setFrameMotion(frame);
+    t.world.setGravity({0, 0, -10}, SineMotion{.amplitude = {1, 0, 3}, .frequency = 0.7});
     t.run(0.3);
     Moment moment;
     t.world.keep(moment);
