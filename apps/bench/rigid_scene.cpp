@@ -41,6 +41,7 @@ struct CommonShape {
 RigidScene::RigidScene(const Scene& scene) : materials_(scene.materials.size()), gravity_{{0, scene.gravity}} {
     if (!scene.springs.empty()) refuse(scene, "springs");
     if (!scene.joints.empty()) refuse(scene, "joints");
+    if (scene.gravity_law) refuse(scene, "a gravity that follows a law");
     for (const SceneEvent& event : scene.events) {
         const auto* change = std::get_if<SetGravity>(&event.action);
         if (change == nullptr) refuse(scene, "events other than changes of gravity");

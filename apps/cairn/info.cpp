@@ -64,7 +64,8 @@ std::string describeScene(const Scene& scene) {
     text += line("bodies", describeBodies(scene));
     text += describeSolids(scene);
     text += line("duration", fmt::format("{} s", scene.duration));
-    text += line("gravity", fmt::format("{} {} {} m/s²", scene.gravity.x(), scene.gravity.y(), scene.gravity.z()));
+    text += line("gravity", fmt::format("{} {} {} m/s²{}", scene.gravity.x(), scene.gravity.y(), scene.gravity.z(),
+                                        scene.gravity_law ? ", changes by a law" : ""));
     for (const Material& material : scene.materials) {
         text += line("material", fmt::format("{}, {} kg/m³", material.name, material.density));
     }

@@ -67,7 +67,10 @@ class Members {
     }
 
     Vec3 vector(const char* key, double smallest, double largest) const {
-        const json& value = member(key);
+        return vector(member(key), key, smallest, largest);
+    }
+    /// @param value of the member or one of its entries
+    Vec3 vector(const json& value, const char* key, double smallest, double largest) const {
         if (!value.is_array() || value.size() != 3) fail(key, "must be an array of three numbers");
         Vec3 v;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -189,6 +192,23 @@ Action parseSelect(const json& o) {
     return SelectBody{members.body("body")};
 }
 
+/// Rays from one point.
+Action parseRays(const json& o) {
+    const Members members(o, "rays", {"origin", "directions"});
+    const Vec3 origin = members.point("origin");
+    const json& directions = members.member("directions");
+    if (!directions.is_array() || directions.size() > most_rays) {
+        members.fail("directions", fmt::format("must be an array of at most {} directions", most_rays));
+    }
+    CastRays cast;
+    for (const json& entry : directions) {
+        const Vec3 direction = members.vector(entry, "directions", -1, 1);
+        if (direction.norm() < 1e-3) members.fail("directions", "has a direction of no length");
+        cast.rays.push_back({origin, direction});
+    }
+    return cast;
+}
+
 template <typename Plain>
 Action parsePlain(const json& o) {
     [[maybe_unused]] const Members none(o, "command", {});
@@ -217,6 +237,7 @@ const std::map<std::string, Parse, std::less<>>& parsers() {
         {"grab", parseGrab},
         {"drag", [](const json& o) -> Action { return DragBody{Members(o, "drag", {"target"}).point("target")}; }},
         {"select", parseSelect},
+        {"rays", parseRays},
         {"layers", [](const json& o) -> Action { return ChooseLayers{parseLayers(Members(o, "layers", {"layers"}))}; }},
     };
     return table;

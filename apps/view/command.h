@@ -68,8 +68,12 @@ struct SelectBody {
 struct ChooseLayers {
     Layers layers = 0;
 };
-using Action = std::variant<Play, Pause, Reset, Step, SetSpeed, LoadBuiltIn, LoadText, SetDial, SetField, ThrowBall,
-                            AddBody, DeleteBody, FreezeBody, GrabBody, DragBody, ReleaseBody, SelectBody, ChooseLayers>;
+struct CastRays {
+    std::vector<Ray> rays;  ///< of this viewer from now on, in place of those before
+};
+using Action =
+    std::variant<Play, Pause, Reset, Step, SetSpeed, LoadBuiltIn, LoadText, SetDial, SetField, ThrowBall, AddBody,
+                 DeleteBody, FreezeBody, GrabBody, DragBody, ReleaseBody, SelectBody, ChooseLayers, CastRays>;
 
 /// A command with the number its answer carries.
 struct Command {
@@ -78,6 +82,7 @@ struct Command {
 };
 
 inline constexpr int most_steps = 100000;
+inline constexpr std::size_t most_rays = 500;  ///< of one viewer
 inline constexpr double slowest_speed = 0.01;
 inline constexpr double fastest_speed = 100;
 inline constexpr double farthest = 1e6;                   ///< coordinates and speeds of commands [m], [m/s]

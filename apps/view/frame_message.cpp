@@ -23,7 +23,8 @@ enum class Section : std::uint32_t {
     moves,
     contacts,
     springs,
-    joints
+    joints,
+    rays
 };
 
 constexpr std::uint8_t flag_present = 1;
@@ -175,6 +176,21 @@ void putSprings(ByteWriter& out, const std::vector<SpringLine>& springs) {
     putSection(out, Section::springs, ends);
 }
 
+/// Where rays begin and hit, and the normal there; those that hit nothing are left out.
+void putRays(ByteWriter& out, const World& world, const std::vector<Ray>& rays) {
+    std::vector<float> lines;
+    const std::vector<std::optional<RayHit>> hits = world.castRays(rays);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (!hits[i]) continue;
+        const std::size_t at = lines.size();
+        lines.resize(at + 9);
+        set(lines, at, rays[i].origin);
+        set(lines, at + 3, hits[i]->point);
+        set(lines, at + 6, hits[i]->normal);
+    }
+    putSection(out, Section::rays, lines);
+}
+
 }  // namespace
 
 std::optional<Layer> layerFromName(std::string_view name) {
@@ -191,7 +207,7 @@ std::string layerNames() {
 }
 
 SharedMessage makeFrameMessage(const World& world, const std::vector<BodyId>& bodies, std::uint32_t epoch,
-                               Layers layers, const std::vector<SpringLine>& springs) {
+                               Layers layers, const Additions& additions) {
     const std::size_t slots = bodies.empty() ? 0 : bodies.back().index + std::size_t{1};
     const auto wanted = [&](Layer layer) { return (layers & bit(layer)) != 0; };
     ByteWriter out;
@@ -211,7 +227,8 @@ SharedMessage makeFrameMessage(const World& world, const std::vector<BodyId>& bo
     }
     if ((layers & traced_layers) != 0) putTraces(out, world, bodies, slots, layers);
     if (wanted(Layer::joints)) putJoints(out, world);
-    if (!springs.empty()) putSprings(out, springs);
+    if (!additions.springs.empty()) putSprings(out, additions.springs);
+    if (!additions.rays.empty()) putRays(out, world, additions.rays);
     return std::make_shared<const Message>(Message{Message::Kind::binary, out.take()});
 }
 

@@ -40,6 +40,12 @@ struct SpringLine {
     Vec3 to;
 };
 
+/// What viewers added to the world that is no part of it.
+struct Additions {
+    std::vector<SpringLine> springs{};
+    std::vector<Ray> rays{};  ///< the frame holds where they hit
+};
+
 /// Whether the world must trace its steps for these layers.
 inline constexpr Tracing tracingFor(Layers layers) {
     return (layers & (bit(Layer::stage) | bit(Layer::moves))) != 0 ? Tracing::on : Tracing::off;
@@ -47,6 +53,6 @@ inline constexpr Tracing tracingFor(Layers layers) {
 
 /// @param bodies all bodies of the world, ascending @param epoch of the roster they belong to
 SharedMessage makeFrameMessage(const World& world, const std::vector<BodyId>& bodies, std::uint32_t epoch,
-                               Layers layers, const std::vector<SpringLine>& springs);
+                               Layers layers, const Additions& additions);
 
 }  // namespace cairn::view

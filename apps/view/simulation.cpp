@@ -69,6 +69,7 @@ struct Simulation::Impl {
         Layers layers = bit(Layer::joints);  ///< the first picture shows how far they reach
         std::optional<BodyId> selected;
         bool selection_due = false;
+        std::vector<Ray> rays;
     };
 
     Impl(const LiveOptions& options, Outbox& out)
@@ -218,6 +219,8 @@ struct Simulation::Impl {
     }
     void act(ClientId client, const ChooseLayers& choose, json&) { viewers[client].layers = choose.layers; }
 
+    void act(ClientId client, const CastRays& cast, json&) { viewers[client].rays = cast.rays; }
+
     static void tellBody(BodyId id, json& answer) {
         answer["body"] = {{"slot", id.index}, {"generation", id.generation}};
     }
@@ -269,12 +272,18 @@ struct Simulation::Impl {
         return layers;
     }
 
+    std::vector<Ray> raysWanted() const {
+        std::vector<Ray> rays;
+        for (const auto& [client, viewer] : viewers) rays.insert(rays.end(), viewer.rays.begin(), viewer.rays.end());
+        return rays;
+    }
+
     void publish() {
         tellOfRoster();
         const Clock::time_point now = Clock::now();
         if (dirty && outbox.frameWanted() && now - last_frame >= frame_interval) {
-            outbox.frame(
-                makeFrameMessage(world.world(), world.bodies(), world.epoch(), layersWanted(), world.springLines()));
+            outbox.frame(makeFrameMessage(world.world(), world.bodies(), world.epoch(), layersWanted(),
+                                          {world.springLines(), raysWanted()}));
             for (auto& [client, viewer] : viewers) viewer.selection_due = true;
             last_frame = now;
             dirty = false;

@@ -98,7 +98,7 @@ struct SceneDrive {
     Motion law = ConstantMotion{};     ///< how it changes, in its unit in place of metres; without turns
 };
 
-/// An event sets gravity.
+/// An event sets gravity, which then stays.
 struct SetGravity {
     Vec3 gravity;  ///< [m/s², W]
 };
@@ -140,6 +140,8 @@ struct Scene {
     std::string name;             ///< for messages and recordings
     double duration = 0;          ///< [s], > 0
     Vec3 gravity = Vec3::Zero();  ///< [m/s², W]
+    /// How gravity changes, as in World::setGravity(); a table begins with `gravity` and has no velocities.
+    std::optional<Motion> gravity_law;
     std::vector<SceneEvent> events;
     std::vector<Material> materials;
     PairProperties default_pair;
@@ -185,7 +187,7 @@ struct SettingOverrides {
 };
 
 /// The settings of a run: preset (override, then scene, then performance) scaled to the steps per second and to the
-/// weakest gravity the scene has at any time, then the scene's fields, then the overrides. @throws InputError
+/// weakest gravity the scene has for long, then the scene's fields, then the overrides. @throws InputError
 Settings settingsFor(const Scene& scene, const SettingOverrides& overrides = {});
 
 class MotionCurve;

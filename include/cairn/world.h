@@ -283,9 +283,13 @@ class World {
     void setJointAxis(JointId id, std::size_t index, const JointAxis& axis);
 
     // --- global accelerations; a change wakes every body ---
-    /// @param gravity [m/s², W] @throws InputError if not finite or contradicting the settings (3.2.5)
-    void setGravity(const Vec3& gravity);
-    Vec3 gravity() const;
+    /// @param gravity now [m/s², W] @param law how it changes from now on: its displacement in m/s² in place of m is
+    /// added to `gravity`; each time step takes the value at its middle, and while it changes nobody falls asleep.
+    /// None = it stays. @throws InputError if not finite, contradicting the settings (3.2.5), or for a law out of range
+    /// or one that turns
+    void setGravity(const Vec3& gravity, const std::optional<Motion>& law = {});
+    Vec3 gravity() const;                      ///< of the last step, or as it was set since [m/s², W]
+    std::optional<Motion> gravityLaw() const;  ///< none = it stays
     /// A second acceleration of all bodies, such as a vehicle's; gravity is not changed. @throws as setGravity
     void setGlobalAcceleration(const Vec3& acceleration);
     Vec3 globalAcceleration() const;

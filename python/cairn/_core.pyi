@@ -1621,7 +1621,7 @@ class Diagnostics(_Record):
         """Potential energy by the penetration correction [J]."""
     @property
     def energy_drives(self) -> float:
-        """Of bodies that move by a law, and of a frame that does [J]."""
+        """Of bodies, a frame or a gravity that follow a law [J]."""
     @property
     def energy_sleep(self) -> float:
         """Of bodies that fell asleep [J]."""
@@ -2076,6 +2076,7 @@ class Scene(_Record):
         name: str,
         duration: float,
         gravity: ArrayLike = ...,
+        gravity_law: Optional[Motion] = ...,
         events: Sequence[SceneEvent] = ...,
         materials: Sequence[Material] = ...,
         default_pair: PairProperties = ...,
@@ -2099,6 +2100,9 @@ class Scene(_Record):
     @property
     def gravity(self) -> Floats:
         """[m/s², W]"""
+    @property
+    def gravity_law(self) -> Optional[Motion]:
+        """How it changes, as in World.set_gravity; None = it stays."""
     @property
     def events(self) -> tuple[SceneEvent, ...]:
         """What happens at times."""
@@ -2338,7 +2342,13 @@ class World:
         """All that acts along a free axis from now on. Raises InputError, StaleIdError."""
     def __contains__(self, id: Union[BodyId, JointId]) -> bool: ...
     gravity: _Vector
-    """[m/s², W]; a change wakes every body. Raises InputError."""
+    """[m/s², W]; a change wakes every body and ends a law. Raises InputError."""
+    def set_gravity(self, gravity: ArrayLike, law: Optional[Motion] = ...) -> None:
+        """Gravity now [m/s², W], and a law whose displacement, in m/s² in place of m, is added to it from now on; while
+        it changes nobody falls asleep. Raises InputError."""
+    @property
+    def gravity_law(self) -> Optional[Motion]:
+        """None = gravity stays."""
     global_acceleration: _Vector
     """A second acceleration of all bodies [m/s², W]. Raises InputError."""
     def step(self, steps: int = ...) -> None:

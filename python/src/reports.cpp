@@ -26,7 +26,7 @@ void bindDiagnostics(py::module_& module) {
         .field("energy_restitution", &D::energy_restitution, "Work of the contacts along their normals [J].")
         .field("energy_joints", &D::energy_joints, "Work of joints, motors included [J].")
         .field("energy_correction", &D::energy_correction, "Potential energy by the penetration correction [J].")
-        .field("energy_drives", &D::energy_drives, "Of bodies that move by a law, and of a frame that does [J].")
+        .field("energy_drives", &D::energy_drives, "Of bodies, a frame or a gravity that follow a law [J].")
         .field("energy_sleep", &D::energy_sleep, "Of bodies that fell asleep [J].")
         .field("energy_error", &D::energy_error, "What no account explains [J].")
         .field("signorini", &D::signorini, "Largest residual of Signorini's law [J].")

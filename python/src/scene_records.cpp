@@ -128,6 +128,7 @@ void bindScene(py::module_& module) {
     scene.field("name", &Scene::name, "For messages and recordings.")
         .field("duration", &Scene::duration, "[s], > 0")
         .field("gravity", &Scene::gravity, "[m/s², W]")
+        .field("gravity_law", &Scene::gravity_law, "How it changes, as in World.set_gravity; None = it stays.")
         .field("events", &Scene::events, "What happens at times.")
         .field("materials", &Scene::materials, "What bodies are made of.")
         .field("default_pair", &Scene::default_pair, "Of materials that have no pair of their own.");

@@ -116,8 +116,14 @@ void bindTies(WorldClass& world) {
 
 void bindTime(WorldClass& world) {
     world
-        .def_property("gravity", on(&World::gravity), on(&World::setGravity),
-                      "[m/s², W]; a change wakes every body. Raises InputError.")
+        .def_property(
+            "gravity", on(&World::gravity),
+            [](const PyWorld& self, const Vec3& gravity) { self.use().setGravity(gravity); },
+            "[m/s², W]; a change wakes every body and ends a law. Raises InputError.")
+        .def("set_gravity", on(&World::setGravity), py::arg("gravity"), py::arg("law") = std::nullopt,
+             "Gravity now [m/s², W], and a law whose displacement, in m/s² in place of m, is added to it from now on; "
+             "while it changes nobody falls asleep. Raises InputError.")
+        .def_property_readonly("gravity_law", on(&World::gravityLaw), "None = gravity stays.")
         .def_property("global_acceleration", on(&World::globalAcceleration), on(&World::setGlobalAcceleration),
                       "A second acceleration of all bodies [m/s², W]. Raises InputError.")
         .def(

@@ -136,6 +136,13 @@ def test_bodies_and_the_frame_move_by_laws() -> None:
     assert world.frame_motion == shaken
     world.frame_motion = None
     assert world.frame_motion is None
+    law = cairn.TableMotion([0, 1], [[0, 0, 0], [0, 0, 5]])
+    world.set_gravity([0, 0, -10], law)
+    assert world.gravity_law == law
+    world.step(300)
+    assert world.gravity.tolist() == [0, 0, -5]
+    world.gravity = [0, 0, -10]
+    assert world.gravity_law is None
 
 
 def test_scenes_hold_filters_and_motions() -> None:
@@ -145,6 +152,8 @@ def test_scenes_hold_filters_and_motions() -> None:
         materials=[cairn.Material("oak", 800)],
         filters=cairn.SceneFilters(["a", "b"], apart=[("a", "b")], exceptions=[cairn.SceneException(0, 1, "never")]),
         frame_motion=cairn.SineMotion(amplitude=[0.01, 0, 0]),
+        gravity=[0, 0, -10],
+        gravity_law=cairn.ConstantMotion(velocity=[1, 0, 0]),
         bodies=[
             cairn.SceneBody(cairn.Box(), "oak", fixed=True, motion=cairn.ConstantMotion([0, 0, 1]), pivot=[0, 0, 1]),
             cairn.SceneBody(cairn.Sphere(), "oak", position=[0, 0, 9], groups=["a"], gravity_factor=0.5, user_data=3),
@@ -152,6 +161,7 @@ def test_scenes_hold_filters_and_motions() -> None:
     )
     assert not scene.filters.is_empty() and cairn.SceneFilters().is_empty()
     read = cairn.parse_scene(cairn.format_scene(scene))
+    assert read.gravity_law == scene.gravity_law and cairn.SceneRun(read).world.gravity_law == scene.gravity_law
     assert read.filters == scene.filters and read.frame_motion == scene.frame_motion
     assert read.bodies[0].motion == scene.bodies[0].motion and read.bodies[1].groups == ("a",)
     run = cairn.SceneRun(read)

@@ -38,7 +38,9 @@ void checkPoints(const std::vector<Vec3>& points) {
                         p.y(), p.z(), largest_dimension));
     }
     std::set<std::array<double, 3>> distinct;
-    for (const Vec3& p : points) distinct.insert({p.x(), p.y(), p.z()});
+    for (std::size_t i = 0; i < points.size() && distinct.size() < 4; ++i) {
+        distinct.insert({points[i].x(), points[i].y(), points[i].z()});
+    }
     if (distinct.size() < 4) {
         throw InputError(
             fmt::format("a hull has {} points, of which {} differ; it needs at least four that are not in "

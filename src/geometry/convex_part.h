@@ -23,6 +23,13 @@ struct ConvexPart {
 /// The hull of points, of which there may be more than a hull takes. @return none if they are flat
 std::optional<HullData> hullOf(std::vector<Vec3> points);
 
+/// Of many points those that are farthest out in a bin of directions, seen from their middle in a frame in which they
+/// are as long as they are wide; a few all.
+std::vector<Vec3> farthestOf(std::vector<Vec3> points);
+/// The volume of a body in the hull of points, whose corners are those farthest along fixed directions: that of the
+/// hull or, where it is round, some percent less, at a small part of the cost.
+double volumeWithin(const std::vector<Vec3>& points);
+
 /// @return none if the hull is flat: the piece is nothing
 std::optional<ConvexPart> makePart(Polyhedron solid, const Points& points);
 

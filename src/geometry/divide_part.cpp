@@ -19,6 +19,8 @@ constexpr std::size_t most_edges = 4;  ///< that stand back farthest, whose plan
 constexpr double same_direction = 0.999;
 constexpr double least_side = 1e-6;  ///< of the volume: smaller sides are no division
 constexpr std::size_t most_hull_points = 20000;
+constexpr std::size_t estimated_from = 300;  ///< points of a part whose planes are compared by estimates first
+constexpr std::size_t best_estimates = 6;    ///< planes that are then compared exactly
 
 struct Candidate {
     CuttingPlane plane;
@@ -28,13 +30,28 @@ struct Candidate {
 struct Division {
     double cost = std::numeric_limits<double>::infinity();
     Candidate candidate;
-    std::vector<ConvexPart> parts;
+    // Of exact ones:
+    std::vector<ConvexPart> parts{};
+    std::vector<Vec3> points{};  ///< that the cut adds
 };
+
+/// How the hulls of pieces are found.
+enum class Hulls : std::uint8_t { exact, estimated };
 
 std::vector<Vec3> placesOf(const Polyhedron& solid, const Points& points) {
     std::vector<Vec3> result;
     for (const std::uint32_t i : pointsOf(solid)) result.push_back(points[i]);
     return result;
+}
+
+/// The error is a little too small and may be below zero; the corners are some points that are far out.
+ConvexPart estimatedPart(Polyhedron solid, const Points& points) {
+    ConvexPart part;
+    part.corners = farthestOf(placesOf(solid, points));
+    part.volume = volumeOf(solid, points);
+    part.error = volumeWithin(part.corners) - part.volume;
+    part.solid = std::move(solid);
+    return part;
 }
 
 class Divider {
@@ -43,37 +60,35 @@ class Divider {
         : part_(part), scale_(scale), points_(points) {}
 
     std::vector<ConvexPart> divide() {
-        addEdgePlanes();
-        addAxisPlanes();
-        Division best;
-        for (const Candidate& candidate : candidates_) attempt(candidate, best);
-        for (int i = 0; i < refinements && best.candidate.step > 0; ++i) {
-            Candidate nearer = best.candidate;
-            nearer.step *= 0.5;
-            const double middle = nearer.plane.offset;
-            best.candidate.step = nearer.step;
-            for (const double side : {-1.0, 1.0}) {
-                nearer.plane.offset = middle + side * nearer.step;
-                attempt(nearer, best);
-            }
+        const bool is_large = pointsOf(part_.solid).size() > estimated_from;
+        const std::optional<HullData> hull = hullOf(is_large ? farthestOf(part_.corners) : part_.corners);
+        if (!hull) return {};
+        addEdgePlanes(*hull);
+        addAxisPlanes(*hull);
+        if (is_large) {
+            findBest(Hulls::estimated);
+            keepBestEstimates();
         }
-        if (best.parts.empty()) return {};
-        // Those of other planes are gone; the same plane gives the same points again.
-        return partsOf(best.candidate.plane);
+        Division best = findBest(Hulls::exact);
+        points_.insert(points_.end(), best.points.begin(), best.points.end());
+        return std::move(best.parts);
     }
 
   private:
-    void addEdgePlanes();
-    void addAxisPlanes();
+    void addEdgePlanes(const HullData& hull);
+    void addAxisPlanes(const HullData& hull);
     void addPlane(const Vec3& normal, const Vec3& through);
     void addAlong(const Vec3& axis, int stride);
-    std::vector<ConvexPart> partsOf(const CuttingPlane& plane);
-    void attempt(const Candidate& candidate, Division& best);
+    std::vector<ConvexPart> partsOf(const CuttingPlane& plane, Hulls hulls);
+    Division findBest(Hulls hulls);
+    void attempt(const Candidate& candidate, Hulls hulls, Division& best);
+    void keepBestEstimates();
 
     const ConvexPart& part_;
     const PartScale& scale_;
     Points& points_;
     std::vector<Candidate> candidates_;
+    std::vector<Division> attempts_;  ///< that divide
 };
 
 void Divider::addPlane(const Vec3& normal, const Vec3& through) {
@@ -87,17 +102,16 @@ void Divider::addPlane(const Vec3& normal, const Vec3& through) {
 }
 
 /// The planes of the faces at the edges that stand back farthest from the hull, and those between the faces.
-void Divider::addEdgePlanes() {
+void Divider::addEdgePlanes(const HullData& hull) {
     struct Deep {
         double depth;
         ReflexEdge edge;
     };
-    const std::optional<HullData> hull = hullOf(part_.corners);
     std::vector<Deep> deep;
     for (const ReflexEdge& edge : reflexEdges(part_.solid, points_)) {
         const Vec3 middle = 0.5 * (points_[edge.from] + points_[edge.to]);
         double depth = std::numeric_limits<double>::infinity();
-        for (const HullFace& face : hull->faces) depth = std::min(depth, face.offset - face.normal.dot(middle));
+        for (const HullFace& face : hull.faces) depth = std::min(depth, face.offset - face.normal.dot(middle));
         deep.push_back({depth * (points_[edge.from] - points_[edge.to]).norm(), edge});
     }
     const std::size_t count = std::min(most_edges, deep.size());
@@ -126,8 +140,8 @@ void Divider::addAlong(const Vec3& axis, int stride) {
 }
 
 /// Planes across the axes of the frame, and across those of the hull where they are others.
-void Divider::addAxisPlanes() {
-    const Mat3 axes = hullOf(part_.corners)->mass.axes.toRotationMatrix();
+void Divider::addAxisPlanes(const HullData& hull) {
+    const Mat3 axes = hull.mass.axes.toRotationMatrix();
     for (Eigen::Index k = 0; k < 3; ++k) addAlong(Vec3::Unit(k), 1);
     for (Eigen::Index k = 0; k < 3; ++k) {
         if (axes.col(k).cwiseAbs().maxCoeff() < same_direction) addAlong(axes.col(k), 2);
@@ -135,7 +149,7 @@ void Divider::addAxisPlanes() {
 }
 
 /// @return none if the plane does not divide the part
-std::vector<ConvexPart> Divider::partsOf(const CuttingPlane& plane) {
+std::vector<ConvexPart> Divider::partsOf(const CuttingPlane& plane, Hulls hulls) {
     auto [before, behind] = cut(part_.solid, plane, scale_.tolerance, points_);
     std::vector<ConvexPart> parts;
     for (Polyhedron* side : {&before, &behind}) {
@@ -143,15 +157,54 @@ std::vector<ConvexPart> Divider::partsOf(const CuttingPlane& plane) {
         auto pieces = connectedPieces(*side, points_, scale_.least);
         if (!pieces) return {};
         for (Polyhedron& piece : *pieces) {
-            if (auto made = makePart(std::move(piece), points_)) parts.push_back(std::move(*made));
+            if (hulls == Hulls::estimated) {
+                parts.push_back(estimatedPart(std::move(piece), points_));
+            } else if (auto made = makePart(std::move(piece), points_)) {
+                parts.push_back(std::move(*made));
+            }
         }
     }
     return parts;
 }
 
-void Divider::attempt(const Candidate& candidate, Division& best) {
+/// Tries all candidates and then planes beside the best.
+Division Divider::findBest(Hulls hulls) {
+    attempts_.clear();
+    Division best;
+    for (const Candidate& candidate : candidates_) attempt(candidate, hulls, best);
+    for (int i = 0; i < refinements && best.candidate.step > 0; ++i) {
+        Candidate nearer = best.candidate;
+        nearer.step *= 0.5;
+        const double middle = nearer.plane.offset;
+        best.candidate.step = nearer.step;
+        for (const double side : {-1.0, 1.0}) {
+            nearer.plane.offset = middle + side * nearer.step;
+            attempt(nearer, hulls, best);
+        }
+    }
+    return best;
+}
+
+/// Estimates are too small, of parallel planes all about alike: the best planes of several normals are worth an exact
+/// look.
+void Divider::keepBestEstimates() {
+    std::ranges::stable_sort(attempts_, {}, &Division::cost);
+    candidates_.clear();
+    for (const Division& division : attempts_) {
+        const Vec3& normal = division.candidate.plane.normal;
+        const auto isParallel = [&](const Candidate& other) {
+            return std::abs(other.plane.normal.dot(normal)) > same_direction;
+        };
+        if (std::ranges::any_of(candidates_, isParallel)) continue;
+        candidates_.push_back({division.candidate.plane, 0});
+        if (candidates_.size() == best_estimates) return;
+    }
+}
+
+void Divider::attempt(const Candidate& candidate, Hulls hulls, Division& best) {
     const std::size_t before = points_.size();
-    std::vector<ConvexPart> parts = partsOf(candidate.plane);
+    std::vector<ConvexPart> parts = partsOf(candidate.plane, hulls);
+    std::vector<Vec3> added(points_.begin() + static_cast<std::ptrdiff_t>(before), points_.end());
     points_.resize(before);
     if (parts.empty()) return;
     double error = 0;
@@ -164,9 +217,13 @@ void Divider::attempt(const Candidate& candidate, Division& best) {
         balance += height > candidate.plane.offset ? part.volume : -part.volume;
     }
     const double cost = error + balance_weight * std::abs(balance);
+    attempts_.push_back({cost, candidate});
     // Rounding decides nothing: of planes that cost the same the first is taken.
     if (!(cost < best.cost - 1e-9 * part_.volume)) return;
-    best = {cost, candidate, std::move(parts)};
+    best = attempts_.back();
+    if (hulls == Hulls::estimated) return;
+    best.parts = std::move(parts);
+    best.points = std::move(added);
 }
 
 }  // namespace

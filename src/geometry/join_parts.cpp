@@ -10,6 +10,9 @@ namespace {
 
 constexpr double no_hull = std::numeric_limits<double>::infinity();
 
+/// By which part an estimate may be too large.
+constexpr double rounding = 1e-9;
+
 /// Parts whose bounds are farther apart than this part of their size are joined only where there are too many.
 constexpr double near_part = 1e-3;
 
@@ -48,7 +51,11 @@ class Joiner {
         }
         fill();
         for (;;) {
-            const auto [a, b, cost] = cheapest();
+            const auto [a, b, cost, is_exact] = cheapest();
+            if (!is_exact && cost < no_hull) {
+                cost_[a][b] = {costOf(a, b), true};
+                continue;
+            }
             if (!(cost < no_hull)) {
                 if (parts_.size() <= most_ || all_pairs_) return;
                 all_pairs_ = true;
@@ -64,26 +71,41 @@ class Joiner {
     struct Pair {
         std::size_t a, b;
         double cost;
+        bool is_exact;
+    };
+    /// What joining adds, or no more than that.
+    struct Cost {
+        double value = no_hull;
+        bool is_exact = false;
     };
 
     double costOf(std::size_t a, std::size_t b) const {
-        if (!all_pairs_ && !isNear(bounds_[a], bounds_[b])) return no_hull;
         return joined(parts_[a], parts_[b]).error - parts_[a].error - parts_[b].error;
+    }
+
+    /// A bound is enough for most pairs: only the cheapest is looked at.
+    Cost boundOf(std::size_t a, std::size_t b) const {
+        if (!all_pairs_ && !isNear(bounds_[a], bounds_[b])) return {};
+        std::vector<Vec3> corners = parts_[a].corners;
+        corners.insert(corners.end(), parts_[b].corners.begin(), parts_[b].corners.end());
+        const double error = volumeWithin(farthestOf(std::move(corners))) - parts_[a].volume - parts_[b].volume;
+        return {(1 - rounding) * std::max(0.0, error) - parts_[a].error - parts_[b].error, false};
     }
 
     void fill() {
         cost_.assign(parts_.size(), {});
         for (std::size_t a = 0; a < parts_.size(); ++a) {
-            for (std::size_t b = 0; b < a; ++b) cost_[a].push_back(costOf(a, b));
+            for (std::size_t b = 0; b < a; ++b) cost_[a].push_back(boundOf(a, b));
         }
     }
 
     /// The first of the cheapest pairs.
     Pair cheapest() const {
-        Pair best{0, 0, no_hull};
+        Pair best{0, 0, no_hull, false};
         for (std::size_t a = 0; a < parts_.size(); ++a) {
             for (std::size_t b = 0; b < a; ++b) {
-                if (cost_[a][b] < best.cost) best = {a, b, cost_[a][b]};
+                const auto [value, is_exact] = cost_[a][b];
+                if (value < best.cost) best = {a, b, value, is_exact};
             }
         }
         return best;
@@ -100,7 +122,7 @@ class Joiner {
         cost_.erase(cost_.begin() + at);
         for (std::size_t i = a; i < cost_.size(); ++i) cost_[i].erase(cost_[i].begin() + at);
         for (std::size_t i = 0; i < parts_.size(); ++i) {
-            if (i != b) cost_[std::max(i, b)][std::min(i, b)] = costOf(std::max(i, b), std::min(i, b));
+            if (i != b) cost_[std::max(i, b)][std::min(i, b)] = boundOf(std::max(i, b), std::min(i, b));
         }
     }
 
@@ -110,7 +132,7 @@ class Joiner {
     double error_ = 0;
     bool all_pairs_ = false;
     std::vector<Bounds> bounds_;
-    std::vector<std::vector<double>> cost_;  ///< that joining adds, of each part with those before it [m³]
+    std::vector<std::vector<Cost>> cost_;  ///< of each part with those before it [m³]
 };
 
 }  // namespace

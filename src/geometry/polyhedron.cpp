@@ -25,6 +25,27 @@ struct SharedEdge {
     bool isAt(const SharedEdge& other) const { return low == other.low && high == other.high; }
 };
 
+/// Sorts by all members: into places by the lower point first, where there are few edges each.
+void sortByLow(std::vector<SharedEdge>& shared) {
+    std::vector<std::size_t> begin;
+    for (const SharedEdge& edge : shared) {
+        if (edge.low + std::size_t{2} > begin.size()) begin.resize(edge.low + std::size_t{2}, 0);
+        ++begin[edge.low + 1];
+    }
+    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    std::vector<SharedEdge> sorted(shared.size());
+    std::vector<std::size_t> next = begin;
+    for (const SharedEdge& edge : shared) sorted[next[edge.low]++] = edge;
+    for (std::size_t i = 0; i + 1 < begin.size(); ++i) {
+        const std::span some = std::span(sorted).subspan(begin[i], begin[i + 1] - begin[i]);
+        if (some.size() < 2) continue;
+        std::ranges::sort(some, [](const SharedEdge& a, const SharedEdge& b) {
+            return std::tie(a.high, a.face, a.sign) < std::tie(b.high, b.face, b.sign);
+        });
+    }
+    shared = std::move(sorted);
+}
+
 std::vector<SharedEdge> sharedEdges(const Polyhedron& solid) {
     std::vector<SharedEdge> shared;
     shared.reserve(solid.edges.size());
@@ -33,9 +54,7 @@ std::vector<SharedEdge> sharedEdges(const Polyhedron& solid) {
             shared.push_back({std::min(from, to), std::max(from, to), f, from < to ? 1 : -1});
         }
     }
-    std::ranges::sort(shared, [](const SharedEdge& a, const SharedEdge& b) {
-        return std::tie(a.low, a.high, a.face, a.sign) < std::tie(b.low, b.high, b.face, b.sign);
-    });
+    sortByLow(shared);
     return shared;
 }
 
@@ -119,11 +138,15 @@ double volumeOf(const Polyhedron& solid, const Points& points) {
 }
 
 std::vector<std::uint32_t> pointsOf(const Polyhedron& solid) {
+    std::vector<std::uint8_t> is_used;
+    for (const PolyhedronEdge& edge : solid.edges) {
+        if (edge.from >= is_used.size()) is_used.resize(edge.from + std::size_t{1}, 0);
+        is_used[edge.from] = 1;
+    }
     std::vector<std::uint32_t> used;
-    used.reserve(solid.edges.size());
-    for (const PolyhedronEdge& edge : solid.edges) used.push_back(edge.from);
-    std::ranges::sort(used);
-    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (std::uint32_t i = 0; i < is_used.size(); ++i) {
+        if (is_used[i] != 0) used.push_back(i);
+    }
     return used;
 }
 

@@ -73,6 +73,14 @@ void validate(const TableMotion& table) {
     }
 }
 
+/// The shortest time between entries from the one before an interval to the one after it [s].
+double shortestBeside(const std::vector<double>& times, std::size_t interval) {
+    double shortest = times[interval + 1] - times[interval];
+    if (interval > 0) shortest = std::min(shortest, times[interval] - times[interval - 1]);
+    if (interval + 2 < times.size()) shortest = std::min(shortest, times[interval + 2] - times[interval + 1]);
+    return shortest;
+}
+
 /// Slopes of a smooth curve through the entries: of the parabola through each entry and its neighbours.
 std::vector<Vec3> slopesOf(const TableMotion& table, const std::vector<Vec3>& values) {
     const std::size_t count = values.size();
@@ -86,6 +94,24 @@ std::vector<Vec3> slopesOf(const TableMotion& table, const std::vector<Vec3>& va
     for (std::size_t i = 1; i + 1 < count; ++i) slopes[i] = between(i - 1, i);
     if (table.end == TableEnd::repeat) slopes.front() = slopes.back() = between(count - 2, 0);
     return slopes;
+}
+
+/// Refuses values through which the smooth curve leaves all bounds: it overshoots where a change within a short time
+/// stands beside a long one, and whatever followed it would be nowhere. A cubic stays among its Bézier points.
+void requireBounded(const TableMotion& table, const std::vector<Vec3>& values, const std::vector<Vec3>& slopes) {
+    for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+        const double third = (table.times[i + 1] - table.times[i]) / 3;
+        const Vec3 points[] = {values[i] + third * slopes[i], values[i + 1] - third * slopes[i + 1]};
+        const bool bounded = std::ranges::all_of(points, [](const Vec3& point) {
+            return point.allFinite() && point.cwiseAbs().maxCoeff() <= extent_of_laws;
+        });
+        if (bounded) continue;
+        throw InputError(fmt::format(
+            "between the times {} s and {} s the smooth curve of a motion by a table leaves ±{}, since the values "
+            "change "
+            "too fast there or beside; put these times farther apart than {} s, or spread the change over more of them",
+            table.times[i], table.times[i + 1], extent_of_laws, shortestBeside(table.times, i)));
+    }
 }
 
 /// One column of a table between two entries, by the cubic with given ends and slopes there. @param s from 0 to 1
@@ -105,6 +131,8 @@ MotionCurve::MotionCurve(Motion motion) : motion_(std::move(motion)) {
     if (const auto* table = std::get_if<TableMotion>(&motion_)) {
         velocities_ = table->velocities.empty() ? slopesOf(*table, table->displacements) : table->velocities;
         spins_ = slopesOf(*table, table->turns);
+        requireBounded(*table, table->displacements, velocities_);
+        requireBounded(*table, table->turns, spins_);
     }
 }
 
@@ -132,6 +160,12 @@ Excursion MotionCurve::ofTable(const TableMotion& table, double time) const {
     const double step = times[i + 1] - times[i];
     const double s = (time - times[i]) / step;
     return {interpolate(table.displacements, velocities_, i, s, step), interpolate(table.turns, spins_, i, s, step)};
+}
+
+std::optional<double> MotionCurve::end() const {
+    const auto* table = std::get_if<TableMotion>(&motion_);
+    if (table == nullptr || table->end == TableEnd::repeat) return {};
+    return table->times.back();
 }
 
 bool MotionCurve::turns() const {

@@ -1,6 +1,8 @@
 /// @file A law of motion in the form in which it is evaluated.
 #pragma once
 
+#include <optional>
+
 #include "cairn/motion.h"
 
 namespace cairn {
@@ -20,6 +22,8 @@ class MotionCurve {
     const Motion& motion() const { return motion_; }
     /// @param time since the beginning of the motion [s]
     Excursion at(double time) const;
+    /// When it comes to its end and holds, since the beginning of the motion [s]; none = never.
+    std::optional<double> end() const;
     /// Whether it turns.
     bool turns() const;
     /// Whether its velocity is the same at all times.

@@ -46,12 +46,18 @@ void driveJoint(const SceneDrive& drive, const JointDescription& joint, JointId 
 
 }  // namespace
 
-void requireDrive(const SceneDrive& drive, const Scene& scene) {
-    if (MotionCurve(drive.law).turns()) throw InputError("its law turns; a drive has displacements only");
-    if (const auto* table = std::get_if<TableMotion>(&drive.law)) {
-        if (!table->velocities.empty()) throw InputError("its table has velocities; a drive's has values only");
-        if (table->displacements.front() != drive.start) throw InputError("it does not start with its table");
+void requireFunction(const Motion& law, const Vec3& start) {
+    if (MotionCurve(law).turns()) throw InputError("its law turns; a function of time has displacements only");
+    if (const auto* table = std::get_if<TableMotion>(&law)) {
+        if (!table->velocities.empty()) {
+            throw InputError("its table has velocities; that of a function of time has values only");
+        }
+        if (table->displacements.front() != start) throw InputError("it does not start with its table");
     }
+}
+
+void requireDrive(const SceneDrive& drive, const Scene& scene) {
+    requireFunction(drive.law, drive.start);
     if (!drivesJoint(drive.what)) {
         if (drive.target >= scene.bodies.size()) throw InputError("its body does not exist");
         if (scene.bodies[drive.target].fixed) throw InputError("its body is fixed, so no force moves it");

@@ -18,6 +18,8 @@ constexpr bool drivesJoint(DriveOf what) {
     return what == DriveOf::position || what == DriveOf::speed;
 }
 
+/// @param start its value at the beginning @throws InputError for a law that no function of time has
+void requireFunction(const Motion& law, const Vec3& start);
 /// @throws InputError unless the scene has what it drives
 void requireDrive(const SceneDrive& drive, const Scene& scene);
 /// Sets what it drives to its value in the coming step; a joint that broke and a body that is gone stay so.

@@ -110,6 +110,24 @@ bool isSameThing(const SceneDrive& a, const SceneDrive& b) {
 
 }  // namespace
 
+void readGravity(const JsonNode& node, Scene& scene) {
+    if (!node.value().is_object()) {
+        scene.gravity = node.vector();
+        return;
+    }
+    // Three numbers that follow a function of time, as those of a force do.
+    SceneDrive drive;
+    drive.what = DriveOf::force;
+    readFunction(node, drive);
+    try {
+        requireFunction(drive.law, drive.start);
+    } catch (const InputError& error) {
+        node.fail(fmt::format("is not allowed: {}", error.what()));
+    }
+    scene.gravity = drive.start;
+    scene.gravity_law = std::move(drive.law);
+}
+
 void readDrives(const JsonNode& node, SceneReading& reading) {
     node.expectArray("an array of drives");
     std::vector<SceneDrive>& drives = reading.scene.drives;

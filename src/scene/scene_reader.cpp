@@ -106,7 +106,7 @@ Scene parseSceneIn(std::string_view json, std::string_view source, std::vector<s
     Scene& scene = reading.scene;
     scene.name = root.required("name", "a text that is not empty").text();
     scene.duration = root.required("duration", "a number above 0 [s]").positive();
-    scene.gravity = root.required("gravity", "an array of three numbers [m/s²]").vector();
+    readGravity(root.required("gravity", "an array of three numbers [m/s²], or a function of time"), scene);
     readContents(document, reading);
     if (const auto node = root.find("frame_motion")) readFrameMotion(*node, scene);
     if (const auto node = root.find("settings")) readSettings(*node, scene);

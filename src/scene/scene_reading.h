@@ -58,6 +58,8 @@ void readFilterExceptions(const JsonNode& node, SceneReading& reading);
 void readEvents(const JsonNode& node, SceneReading& reading);
 void readSprings(const JsonNode& node, SceneReading& reading);
 void readJoints(const JsonNode& node, SceneReading& reading);
+/// Gravity [m/s²], which may be a function of time.
+void readGravity(const JsonNode& node, Scene& scene);
 /// What follows functions of time. After the joints.
 void readDrives(const JsonNode& node, SceneReading& reading);
 

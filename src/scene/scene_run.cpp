@@ -32,9 +32,13 @@ double stepsPerSecond(const Scene& scene, const SettingOverrides& overrides) {
     return scratch.steps_per_second;
 }
 
-/// All gravities that the scene has at any time [m/s², W].
+/// All gravities that the scene has for long [m/s², W]: not those on the way from one to another.
 std::vector<Vec3> gravities(const Scene& scene) {
     std::vector<Vec3> all{scene.gravity};
+    if (scene.gravity_law) {
+        const MotionCurve curve(*scene.gravity_law);
+        if (const auto end = curve.end()) all.front() += curve.at(*end).displacement;
+    }
     for (const SceneEvent& event : scene.events) {
         if (const auto* change = std::get_if<SetGravity>(&event.action)) all.push_back(change->gravity);
     }
@@ -204,7 +208,10 @@ SceneRun::SceneRun(Scene scene, const Settings& settings) : scene_(std::move(sce
                      [](const SceneEvent& a, const SceneEvent& b) { return a.time < b.time; });
     const MaterialIds materials = addMaterials(scene_, world_);
     const GroupIds groups = inContext("filters", [&] { return addGroups(scene_.filters, world_); });
-    world_.setGravity(scene_.gravity);
+    inContext("gravity", [&] {
+        if (scene_.gravity_law) requireFunction(*scene_.gravity_law, scene_.gravity);
+        world_.setGravity(scene_.gravity, scene_.gravity_law);
+    });
     ids_.reserve(scene_.bodies.size());
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
         inContext(bodyTitle(scene_, i),

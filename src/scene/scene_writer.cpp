@@ -243,7 +243,7 @@ std::string eventsText(const Scene& scene) {
 
 std::string formatScene(const Scene& scene) {
     std::string out = fmt::format("{{\"name\":{},\"duration\":{},\"gravity\":{},\n", text(scene.name),
-                                  number(scene.duration), vector(scene.gravity));
+                                  number(scene.duration), gravityText(scene));
     if (!scene.events.empty()) out += fmt::format("\"events\":{},\n", eventsText(scene));
     out += fmt::format("\"materials\":{},\n\"contacts\":{},\n", materialsText(scene), contactsText(scene));
     if (!scene.filters.isEmpty()) out += fmt::format("\"filters\":{},\n", filtersText(scene.filters));

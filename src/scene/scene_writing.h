@@ -55,6 +55,7 @@ class WrittenShapes {
 };
 
 std::string driveText(const SceneDrive& drive);
+std::string gravityText(const Scene& scene);
 std::string pairLawText(const PairLaw& law);
 std::string jointText(const SceneJoint& scene_joint);
 

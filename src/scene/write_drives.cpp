@@ -36,6 +36,15 @@ std::string functionText(const SceneDrive& drive, const TableMotion& law) {
 
 }  // namespace
 
+std::string gravityText(const Scene& scene) {
+    if (!scene.gravity_law) return vector(scene.gravity);
+    SceneDrive drive;
+    drive.what = DriveOf::force;
+    drive.start = scene.gravity;
+    return fmt::format(R"({{"type":{}}})",
+                       std::visit([&](const auto& law) { return functionText(drive, law); }, *scene.gravity_law));
+}
+
 std::string driveText(const SceneDrive& drive) {
     const std::string function = std::visit([&](const auto& law) { return functionText(drive, law); }, drive.law);
     return fmt::format(R"({{"{}":{}{},"{}":{{"type":{}}}}})", drivesJoint(drive.what) ? "joint" : "body", drive.target,

@@ -222,6 +222,10 @@ void measure(WorldState& world, Measured point) {
         case Measured::begin:
             data.begin = now;
             break;
+        case Measured::laws:
+            // What is high or low got another potential energy from a gravity that changed.
+            d.energy_drives += now.energy() - last.energy();
+            break;
         case Measured::positions:
             d.energy_flight += now.energy() - last.energy();
             break;

@@ -6,7 +6,7 @@
 namespace cairn {
 
 /// Between which parts of a step it is measured.
-enum class Measured { begin, positions, correction, forces, damping, resolution, completion, sleep };
+enum class Measured { begin, laws, positions, correction, forces, damping, resolution, completion, sleep };
 
 /// Puts what happened since the last point on its account in Statistics::diagnostics.
 /// @pre settings.diagnostics; every point once per step, in order

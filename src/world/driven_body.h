@@ -31,4 +31,11 @@ struct FrameMotion {
     std::shared_ptr<const MotionCurve> curve{};
 };
 
+/// Gravity as a function of time.
+struct GravityLaw {
+    double start = 0;                            ///< simulated time at which it begins [s]
+    Vec3 gravity = Vec3::Zero();                 ///< at that time [m/s², W]
+    std::shared_ptr<const MotionCurve> curve{};  ///< what is added to it [m/s², W]
+};
+
 }  // namespace cairn

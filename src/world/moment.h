@@ -26,6 +26,7 @@ struct MomentState {
     std::vector<Spring> springs;
     std::vector<Joint> joints;
     Vec3 gravity, global_acceleration;
+    std::optional<GravityLaw> gravity_law;
     std::vector<DrivenBody> driven;
     std::optional<FrameMotion> frame;
     std::int64_t steps = 0, steps_at_start = 0;

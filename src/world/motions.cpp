@@ -86,6 +86,13 @@ Vec3 frameAcceleration(const WorldState& world) {
     return -(at(world.steps + 1) - 2 * at(world.steps) + at(world.steps - 1)) / (step * step);
 }
 
+/// Gravity in the step that comes after so many: at its middle, so that a velocity gets what the law's integral has.
+Vec3 gravityIn(const WorldState& world, std::int64_t steps) {
+    const GravityLaw& law = *world.gravity_law;
+    const double middle = timeAfter(world, steps) + 0.5 * world.settings.timeStep();
+    return law.gravity + law.curve->at(std::max(0.0, middle - law.start)).displacement;
+}
+
 }  // namespace
 
 void moveByLaw(WorldState& world) {
@@ -116,6 +123,23 @@ void advanceLaws(WorldState& world) {
 void beginLaws(WorldState& world) {
     world.frame_acceleration = frameAcceleration(world);
     if (!world.frame_acceleration.isZero(0)) world.wakeAll();
+    if (!world.gravity_law) return;
+    const Vec3 gravity = gravityIn(world, world.steps - 1);
+    if (gravity == world.gravity) return;
+    world.gravity = gravity;
+    world.wakeAll();
+}
+
+Vec3 lastingGravity(const Vec3& gravity, const std::optional<GravityLaw>& law) {
+    if (!law) return gravity;
+    const std::optional<double> end = law->curve->end();
+    return end ? Vec3(law->gravity + law->curve->at(*end).displacement) : Vec3::Zero();
+}
+
+bool isGravityChanging(const WorldState& world) {
+    if (!world.gravity_law) return false;
+    const std::optional<double> end = world.gravity_law->curve->end();
+    return !end || timeAfter(world, world.steps) < world.gravity_law->start + *end;
 }
 
 void addLaw(WorldState& world, DrivenBody driven) {

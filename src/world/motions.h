@@ -1,11 +1,12 @@
-/// @file Bodies that move by a law, and the frame of the world where it does.
+/// @file Bodies that move by a law, and the frame and the gravity of the world where they do.
 #pragma once
 
 #include "world/world_state.h"
 
 namespace cairn {
 
-/// Stage 1: finds what the motion of the frame gives all bodies in this step, and wakes them if it gives any.
+/// Stage 1: finds gravity and what the motion of the frame gives all bodies in this step, and wakes them where gravity
+/// changed or the frame gives any.
 void beginLaws(WorldState& world);
 
 /// Stage 2: puts the bodies that move by a law where the end of the step finds them.
@@ -23,6 +24,11 @@ void addLaw(WorldState& world, DrivenBody driven);
 void removeLaw(WorldState& world, BodyIndex body);
 /// @throws InputError for a body that moves by a law
 void requireNoLaw(const WorldState& world, BodyIndex body);
+
+/// Gravity after all that its law does, or as it is without a law; zero where the law never ends [m/s², W].
+Vec3 lastingGravity(const Vec3& gravity, const std::optional<GravityLaw>& law);
+/// Whether gravity follows a law that has not ended.
+bool isGravityChanging(const WorldState& world);
 
 /// Whether bodies get energy from laws.
 bool isDrivenByLaws(const WorldState& world);

@@ -75,6 +75,26 @@ void drivenFields(Stream& stream, Driven& driven) {
     field(stream, driven.pivot);
 }
 
+/// A law of the whole world, if it has one. @param save what it has of its own
+template <class Law, class Save>
+void saveOptional(const std::optional<Law>& law, ByteWriter& out, const Save& save) {
+    out.put(static_cast<std::uint8_t>(law.has_value()));
+    if (!law) return;
+    out.put(law->start);
+    save(*law);
+    saveMotion(law->curve->motion(), out);
+}
+
+template <class Law, class Load>
+void loadOptional(ByteReader& in, std::optional<Law>& law, const Load& load) {
+    if (in.get<std::uint8_t>() == 0) return;
+    law.emplace();
+    law->start = in.get<double>();
+    load(*law);
+    law->curve = loadCurve(in);
+    if (!std::isfinite(law->start) || law->curve->turns()) in.refuse("a law of the whole world as there is none");
+}
+
 bool isSound(const DrivenBody& driven, const BodyStorage& bodies) {
     return driven.body < bodies.slots() && bodies.kind[driven.body] == BodyKind::fixed && std::isfinite(driven.start) &&
            driven.pose.position.allFinite() && driven.pivot.allFinite() &&
@@ -88,10 +108,8 @@ void saveMotions(const WorldState& world, ByteWriter& out) {
         drivenFields(out, driven);
         saveMotion(driven.curve->motion(), out);
     });
-    out.put(static_cast<std::uint8_t>(world.frame.has_value()));
-    if (!world.frame) return;
-    out.put(world.frame->start);
-    saveMotion(world.frame->curve->motion(), out);
+    saveOptional(world.frame, out, [](const FrameMotion&) {});
+    saveOptional(world.gravity_law, out, [&](const GravityLaw& law) { field(out, law.gravity); });
 }
 
 void loadMotions(ByteReader& in, WorldState& world) {
@@ -103,12 +121,11 @@ void loadMotions(ByteReader& in, WorldState& world) {
         driven.curve = loadCurve(in);
         world.driven.push_back(std::move(driven));
     }
-    if (in.get<std::uint8_t>() == 0) return;
-    FrameMotion frame;
-    frame.start = in.get<double>();
-    frame.curve = loadCurve(in);
-    if (!std::isfinite(frame.start) || frame.curve->turns()) in.refuse("a frame that moves as none does");
-    world.frame = std::move(frame);
+    loadOptional(in, world.frame, [](FrameMotion&) {});
+    loadOptional(in, world.gravity_law, [&](GravityLaw& law) {
+        field(in, law.gravity);
+        if (!law.gravity.allFinite()) in.refuse("a law of a gravity that no world has");
+    });
 }
 
 }  // namespace cairn

@@ -8,6 +8,7 @@
 
 #include "math/rotation.h"
 #include "world/limits.h"
+#include "world/motions.h"
 #include "world/quarantine.h"
 #include "world/saved_fields.h"
 #include "world/saved_filter.h"
@@ -281,7 +282,7 @@ void loadEvents(ByteReader& in, EventLog& log) {
 
 void checkWorld(const ByteReader& in, const WorldState& world) {
     try {
-        validate(world.settings, world.gravity + world.global_acceleration);
+        validate(world.settings, lastingGravity(world.gravity, world.gravity_law) + world.global_acceleration);
     } catch (const InputError& error) {
         in.refuse(error.what());
     }

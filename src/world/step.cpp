@@ -204,8 +204,8 @@ std::span<const std::uint8_t> listNotSleeping(WorldState& world) {
 void sleepStage(WorldState& world) {
     // In zero gravity nothing rests: a slow body that was stopped would lose its momentum.
     const bool weightless = (world.gravity + world.global_acceleration).isZero(0);
-    // In a frame that is shaken nothing is at rest either.
-    const bool shaken = !world.frame_acceleration.isZero(0);
+    // In a frame that is shaken, or under a gravity that changes, nothing is at rest either.
+    const bool shaken = !world.frame_acceleration.isZero(0) || isGravityChanging(world);
     if (!world.settings.sleep.sleeping || weightless || shaken) return;
     BodyStorage& b = world.bodies;
     const std::span<const std::uint8_t> others = listNotSleeping(world);
@@ -234,9 +234,10 @@ void stepWorld(WorldState& world) {
         quarantine(world);
         wakeSpringEnds(world.springs, world.bodies);
         prepareJoints(world);
+        measureIfAsked(world, Measured::begin);
         beginLaws(world);
     });
-    measureIfAsked(world, Measured::begin);
+    measureIfAsked(world, Measured::laws);
     timed(statistics, Stage::positions, [&] {
         if (world.settings.integration.exact_flight) notePositions(world.bodies, world.executor, world.data.before);
         const JointFlight::Motion motion{world.settings.integration, world.settings.gravity_damping,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/motions.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -90,19 +91,8 @@ PairProperties World::pairProperties(MaterialId a, MaterialId b) const {
     return state_->materials.pair(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
 }
 
-void World::setGravity(const Vec3& gravity) {
-    validate(state_->settings, gravity + state_->global_acceleration);
-    if (gravity == state_->gravity) return;
-    state_->gravity = gravity;
-    state_->wakeAll();
-}
-
-Vec3 World::gravity() const {
-    return state_->gravity;
-}
-
 void World::setGlobalAcceleration(const Vec3& acceleration) {
-    validate(state_->settings, state_->gravity + acceleration);
+    validate(state_->settings, lastingGravity(state_->gravity, state_->gravity_law) + acceleration);
     if (acceleration == state_->global_acceleration) return;
     state_->global_acceleration = acceleration;
     state_->wakeAll();
@@ -133,7 +123,7 @@ const Settings& World::settings() const {
 }
 
 void World::setSettings(const Settings& settings) {
-    validate(settings, state_->gravity + state_->global_acceleration);
+    validate(settings, lastingGravity(state_->gravity, state_->gravity_law) + state_->global_acceleration);
     state_->applySettings(settings);
 }
 

@@ -1,4 +1,4 @@
-/// The part of World that moves bodies and its frame by laws.
+/// The part of World that moves bodies, its frame and its gravity by laws.
 #include <fmt/core.h>
 
 #include "cairn/world.h"
@@ -77,6 +77,33 @@ void World::setSurfaceVelocity(BodyId id, const Vec3& velocity) {
 
 Vec3 World::surfaceVelocity(BodyId id) const {
     return state_->bodies.surface_velocity[state_->bodies.indexOf(id)];
+}
+
+void World::setGravity(const Vec3& gravity, const std::optional<Motion>& law) {
+    WorldState& w = *state_;
+    std::optional<GravityLaw> new_law;
+    if (law) {
+        new_law = {w.time, gravity, std::make_shared<const MotionCurve>(*law)};
+        if (new_law->curve->turns()) throw InputError("a law of gravity turns; give one without spin or turns");
+    }
+    validate(w.settings, lastingGravity(gravity, new_law) + w.global_acceleration);
+    // Gravity may pass any value while it changes, since nobody falls asleep then.
+    Settings changing = w.settings;
+    changing.sleep.sleeping = false;
+    validate(changing, gravity + w.global_acceleration);
+    const bool stays = gravity == w.gravity && !w.gravity_law && !new_law;
+    w.gravity = gravity;
+    w.gravity_law = std::move(new_law);
+    if (!stays) w.wakeAll();
+}
+
+Vec3 World::gravity() const {
+    return state_->gravity;
+}
+
+std::optional<Motion> World::gravityLaw() const {
+    if (!state_->gravity_law) return {};
+    return state_->gravity_law->curve->motion();
 }
 
 void World::setFrameMotion(const std::optional<Motion>& motion) {

@@ -125,7 +125,8 @@ struct WorldState {
     TiesOfBodies ties;  ///< lists of both
     JointGrouping joint_grouping;
     JointFlight joint_flight;
-    Vec3 gravity = Vec3::Zero();              ///< [m/s², W]
+    Vec3 gravity = Vec3::Zero();              ///< of this step [m/s², W]
+    std::optional<GravityLaw> gravity_law;    ///< none = it stays
     Vec3 global_acceleration = Vec3::Zero();  ///< [m/s², W]
     std::vector<DrivenBody> driven;           ///< ascending by body
     std::optional<FrameMotion> frame;         ///< none = it rests

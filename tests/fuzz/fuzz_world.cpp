@@ -105,7 +105,7 @@ void actOnLaws(World& world, fuzz::Bytes& in, Made& made) {
     const BodyId id = anyOf(made.bodies, in);
     const auto group = [&] { return static_cast<GroupId>(in.below(4)); };
     const auto touch = [&] { return static_cast<Touch>(in.below(2)); };
-    switch (in.below(10)) {
+    switch (in.below(11)) {
         case 0:
             return world.setMotion(id, anyMotion(in), in.vector(1));
         case 1:
@@ -127,6 +127,8 @@ void actOnLaws(World& world, fuzz::Bytes& in, Made& made) {
             return world.setPairTouch(id, anyOf(made.bodies, in), touch());
         case 8:
             return world.setGravityFactor(id, in.number(3));
+        case 9:
+            return world.setGravity(in.vector(10), anyMotion(in));
         default:
             return world.setDamping(id, in.number(10), in.number(10));
     }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "geometry/compound_mass.h"
+#include "geometry/convex_part.h"
 #include "geometry/geometry.h"
 #include "geometry/hull_data.h"
 #include "narrow_phase/pair_random.h"
@@ -140,6 +141,43 @@ TEST(Decomposition, LeavesOutNothingAndAddsNoMoreThanAllowed) {
     }
     const Decomposition box = decompose(testing::cubes(openBoxCells()).mesh());
     for (const double z : {1.1, 2.5, 3.9}) EXPECT_FALSE(holds(box.compound, Vec3(2.5, 2.5, z), 0));
+}
+
+/// What compares planes: never larger than the hull, and not much smaller, flat and round and long ones alike.
+TEST(Decomposition, EstimatesOfHullsAreALittleTooSmall) {
+    std::vector<Vec3> corners;
+    for (const double x : {-3.0, 1.0})
+        for (const double y : {0.0, 0.01})
+            for (const double z : {5.0, 6.0}) corners.emplace_back(x, y, z);
+    EXPECT_NEAR(volumeWithin(corners), 0.04, 1e-12);
+    EXPECT_EQ(farthestOf(corners).size(), 8U);
+    Random random(5);
+    for (const Vec3& half : {Vec3(1, 1, 1), Vec3(20, 1, 0.1), Vec3(1e-3, 3e-3, 2e-3)}) {
+        std::vector<Vec3> ball;
+        std::vector<Vec3> cloud;
+        for (int i = 0; i < 4000; ++i) {
+            const Vec3 p(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+            ball.push_back(Vec3(7, 0, -2) + p.normalized().cwiseProduct(half));
+            cloud.push_back(p.cwiseProduct(half));
+        }
+        for (const std::vector<Vec3>& points : {ball, cloud}) {
+            const double hull = buildHull(points).mass.volume;
+            const std::vector<Vec3> far = farthestOf(points);
+            EXPECT_LE(far.size(), 600U);
+            EXPECT_LE(volumeWithin(far), hull);
+            EXPECT_GT(volumeWithin(far), 0.92 * hull);
+        }
+    }
+    EXPECT_EQ(volumeWithin({}), 0);
+    EXPECT_EQ(volumeWithin({Vec3::Ones(), Vec3::Ones()}), 0);
+}
+
+/// Planes of parts with many points are chosen by estimates, which must not cost parts.
+TEST(Decomposition, FineMeshesTakeAsFewPartsAsCoarseOnes) {
+    const Decomposition coarse = decompose(testing::torus(1, 0.2, 24, 9).mesh(), {.largest_error = 0.1});
+    const Decomposition fine = decompose(testing::torus(1, 0.2, 96, 38).mesh(), {.largest_error = 0.1});
+    EXPECT_LE(fine.error, 0.1);
+    EXPECT_LE(fine.compound.parts.size(), coarse.compound.parts.size() + 1);
 }
 
 TEST(Decomposition, SolidsWithCavitiesAndThoseThatTouchThemselves) {

@@ -44,6 +44,11 @@ TEST(Command, ReadsWhatThePageSends) {
     EXPECT_EQ(parsed<SelectBody>(R"({"do":"select","body":null})").body, std::nullopt);
     EXPECT_EQ(parsed<ChooseLayers>(R"({"do":"layers","layers":["speed","contacts"]})").layers,
               bit(Layer::speed) | bit(Layer::contacts));
+    const auto cast = parsed<CastRays>(R"({"do":"rays","origin":[1,2,3],"directions":[[0,0,-1],[1,0,0]]})");
+    ASSERT_EQ(cast.rays.size(), 2U);
+    EXPECT_EQ(cast.rays[1].origin, Vec3(1, 2, 3));
+    EXPECT_EQ(cast.rays[1].direction, Vec3::UnitX());
+    EXPECT_TRUE(parsed<CastRays>(R"({"do":"rays","origin":[0,0,0],"directions":[]})").rays.empty());
 }
 
 TEST(Command, KeepsTheNumberForTheAnswer) {
@@ -63,6 +68,9 @@ TEST(Command, RefusalsNameTheMemberTheValueAndWhatIsAllowed) {
     EXPECT_NE(refusal(R"({"do":"play","speed":1})").find("unknown member 'speed'"), std::string::npos);
     EXPECT_NE(refusal(R"({"do":"drag","target":[0,1e300,0]})").find("1e+300"), std::string::npos);
     EXPECT_NE(refusal(R"({"do":"layers","layers":["x-ray"]})").find("speed"), std::string::npos);
+    EXPECT_NE(refusal(R"({"do":"rays","origin":[0,0,0],"directions":[[0,0,0]]})").find("no length"), std::string::npos);
+    EXPECT_NE(refusal(R"({"do":"rays","origin":[0,0,0],"directions":[[2,0,0]]})").find("allowed is -1 to 1"),
+              std::string::npos);
     EXPECT_NE(refusal("").find("JSON"), std::string::npos);
     EXPECT_NE(refusal("[]").find("object"), std::string::npos);
     EXPECT_NE(refusal(R"({"do":7})").find("'do'"), std::string::npos);
@@ -88,8 +96,10 @@ TEST(Command, NoChangedBytesDoMoreThanRefuse) {
     const std::vector<std::string> seeds = {
         R"({"do":"throw","origin":[0,1,2],"velocity":[3,4,5],"radius":0.1,"material":"iron","id":5})",
         R"({"do":"add","shape":{"type":"capsule","radius":0.1,"length":2},"material":"oak","position":[0,0,9]})",
-        R"({"do":"set","field":"damping","value":0.5})", R"({"do":"grab","body":[1,0],"point":[0,0,1]})",
-        R"({"do":"layers","layers":["speed","batch","bounds"]})"};
+        R"({"do":"set","field":"damping","value":0.5})",
+        R"({"do":"grab","body":[1,0],"point":[0,0,1]})",
+        R"({"do":"layers","layers":["speed","batch","bounds"]})",
+        R"({"do":"rays","origin":[0,1,2],"directions":[[0,0,-1],[1,0,0.5]]})"};
     std::mt19937_64 random(7);
     int understood = 0;
     for (int round = 0; round < 20000; ++round) {

@@ -147,7 +147,7 @@ TEST(FrameMessage, HoldsThePosesAndTheLayersAskedFor) {
     for (int i = 0; i < 20; ++i) world.step();
     const Layers all = 511;
     const SharedMessage message =
-        makeFrameMessage(world.world(), world.bodies(), 9, all, {{Vec3::Zero(), Vec3::UnitX()}});
+        makeFrameMessage(world.world(), world.bodies(), 9, all, {{{Vec3::Zero(), Vec3::UnitX()}}, {}});
     ASSERT_EQ(message->kind, Message::Kind::binary);
     const std::string& bytes = message->bytes;
     const auto read = [&](std::size_t at, auto value) {
@@ -180,6 +180,24 @@ TEST(FrameMessage, HoldsThePosesAndTheLayersAskedFor) {
     }
     EXPECT_EQ(kinds, (std::vector<std::uint32_t>{1, 2, 3, 4, 5, 6, 11, 7, 8, 9, 10, 13, 12}));
     EXPECT_LT(makeFrameMessage(world.world(), world.bodies(), 9, 0, {})->bytes.size(), bytes.size());
+}
+
+TEST(FrameMessage, HoldsWhereRaysHit) {
+    LiveWorld world = tower(3);
+    const Vec3 above(0, 0, 10);
+    const std::vector<Ray> rays = {{above, Vec3(0, 0, -0.5)}, {above, Vec3::UnitZ()}, {above, Vec3(1, 0, -0.2)}};
+    const SharedMessage message = makeFrameMessage(world.world(), world.bodies(), 1, 0, {{}, rays});
+    const std::string& bytes = message->bytes;
+    std::array<std::uint32_t, 2> head{};
+    std::array<std::array<float, 9>, 2> lines{};
+    ASSERT_GT(bytes.size(), sizeof(head) + sizeof(lines));
+    std::memcpy(head.data(), bytes.data() + bytes.size() - sizeof(lines) - sizeof(head), sizeof(head));
+    std::memcpy(lines.data(), bytes.data() + bytes.size() - sizeof(lines), sizeof(lines));
+    EXPECT_EQ(head, (std::array<std::uint32_t, 2>{14, sizeof(lines)})) << "the ray to the sky hits nothing";
+    const auto hit = world.world().castRay(rays.front());
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(lines[0], (std::array<float, 9>{0, 0, 10, 0, 0, static_cast<float>(hit->point.z()), 0, 0, 1}));
+    EXPECT_EQ(lines[1][5], 0) << "the ground";
 }
 
 TEST(FrameMessage, HoldsTheJointsWhereTheyAre) {

@@ -104,6 +104,8 @@ class OddCommands {
                 return {{"do", "layers"},
                         {"layers",
                          {"contacts", "moves", "stage", "bounds", "level", "joints", "batch", "overlap", "speed"}}};
+            case 14:
+                return {{"do", "rays"}, {"origin", point()}, {"directions", {{0, 0, -1}, {0.5, 1, -0.1}}}};
             default:
                 return setting();
         }

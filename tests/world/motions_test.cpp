@@ -210,6 +210,7 @@ TEST(Motion, GoesOnFromSnapshotsAndMoments) {
     frame.times = {0, 1, 2};
     frame.displacements = {Vec3(0, 0, 0), Vec3(0, 0.1, 0), Vec3(0, 0, 0)};
     t.world.setFrameMotion(frame);
+    t.world.setGravity({0, 0, -10}, SineMotion{.amplitude = {1, 0, 3}, .frequency = 0.7});
     t.run(0.3);
     Moment moment;
     t.world.keep(moment);
@@ -246,6 +247,16 @@ TEST(Motion, RefusesWhatNoLawIs) {
     table.end = TableEnd::hold;
     table.times = {1, 1};
     EXPECT_THROW(t.world.setMotion(t.table, table), InputError) << "times do not ascend";
+    table.times = {0, 1e-300, 1};
+    table.displacements = {Vec3::Zero(), Vec3::Ones(), Vec3::Zero()};
+    try {
+        t.world.setMotion(t.table, table);
+        FAIL() << "its curve overshoots without bounds";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("farther apart than 1e-300 s"), std::string::npos) << error.what();
+    }
+    table.times[1] = 1e-3;
+    t.world.setMotion(t.table, table);
     EXPECT_THROW(t.world.setFrameMotion(ConstantMotion{.spin = {0, 0, 1}}), InputError);
     t.world.setMotion(t.table, ConstantMotion{});
     EXPECT_TRUE(t.world.motion(t.table));

@@ -14,6 +14,7 @@ import { nearest, type Hit } from './view/pick';
 import { shotAlong } from './view/throw';
 
 const shownSeconds = 12;
+const rayColumns = 16, rayRows = 9;
 const speeds = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8];
 
 export class Live implements Mode {
@@ -25,6 +26,7 @@ export class Live implements Mode {
   private latest: Frame | null = null;
   private undrawn = 0;
   private framed = false;
+  private castsRays = false;
   private lastFollowed: string | null = null;
   private readonly connection: Connection;
   private readonly dragging: Dragging;
@@ -65,7 +67,10 @@ export class Live implements Mode {
   // --- messages ---
   onText(message: TextMessage): void {
     switch (message.type) {
-      case 'hello': this.optionsChanged(); break;
+      case 'hello':
+        this.castsRays = false;
+        this.optionsChanged();
+        break;
       case 'world': this.setWorld(message); break;
       case 'bodies': this.changeBodies(message); break;
       case 'state': this.setState(message); break;
@@ -110,6 +115,21 @@ export class Live implements Mode {
 
   optionsChanged(): void {
     this.command({ do: 'layers', layers: layersFor(this.app.options) });
+    if (this.app.options.rays !== this.castsRays) this.castRays(this.app.options.rays);
+  }
+
+  /** Through a grid of points of the picture; they stay where they are while the camera goes on. */
+  private castRays(on: boolean): void {
+    this.castsRays = on;
+    const box = this.app.stage.canvas.getBoundingClientRect();
+    const directions: number[][] = [];
+    for (let row = 0.5; on && row < rayRows; row++) {
+      for (let column = 0.5; column < rayColumns; column++) {
+        const { ray } = this.app.stage.rayAt(box.left + (column / rayColumns) * box.width, box.top + (row / rayRows) * box.height);
+        directions.push(ray.direction.toArray().map((x) => Math.round(1e5 * x) / 1e5));
+      }
+    }
+    this.command({ do: 'rays', origin: this.app.stage.camera.position.toArray(), directions });
   }
 
   chartData(): ChartData {

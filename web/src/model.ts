@@ -118,6 +118,8 @@ export interface Frame {
   /** pairs of points */
   springs?: Float32Array;
   joints?: Joints;
+  /** nine numbers per ray that hits: where it begins and hits, and the normal there */
+  rays?: Float32Array;
 }
 
 /** One simulation step of 1/30 s, for the charts; `values` in the order of `sampleFields`. */
@@ -142,13 +144,14 @@ export interface ViewOptions {
   bounds: boolean;
   joints: boolean;
   laws: boolean;
+  rays: boolean;
   shadows: boolean;
   grid: boolean;
 }
 
 export const defaultOptions: ViewOptions = {
   colour: 'material', points: false, normals: false, impulses: false, friction: false, moves: false, bounds: false,
-  joints: true, laws: true, shadows: true, grid: true,
+  joints: true, laws: true, rays: false, shadows: true, grid: true,
 };
 
 /** The arrays that must come with the frames so that the options can be drawn. */

@@ -118,7 +118,7 @@ export type TextMessage = NextPicture | Hello | WorldMessage | BodiesMessage | S
 export const frameKind = 1;
 export const sampleKind = 2;
 
-const enum Section { position = 1, orientation, flags, speed, batch, overlap, level, stage, bounds, moves, contacts, springs, joints }
+const enum Section { position = 1, orientation, flags, speed, batch, overlap, level, stage, bounds, moves, contacts, springs, joints, rays }
 const contactWords = 12;
 const jointWords = 12;
 
@@ -153,6 +153,7 @@ export function decodeFrame(data: ArrayBuffer): Frame {
       case Section.contacts: frame.contacts = unpackContacts(data, at, bytes); break;
       case Section.springs: frame.springs = new Float32Array(data, at, bytes / 4); break;
       case Section.joints: frame.joints = unpackJoints(data, at, bytes); break;
+      case Section.rays: frame.rays = new Float32Array(data, at, bytes / 4); break;
     }
     at += (bytes + 3) & ~3;
   }

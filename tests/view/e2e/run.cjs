@@ -160,6 +160,17 @@ async function live(browser) {
     await page.evaluate(() => window.cairn.live.step(4));
     await until(page, '(() => { const f = window.cairn.app.stage.panels[0].frame; return f?.contacts?.count > 0 && f.batch && f.bounds && f.moves; })()');
     await shot(page, 'live-layers');
+    await page.click('#layer-rays');
+    await until(page, 'window.cairn.app.stage.panels[0].frame?.rays?.length > 9');
+    const [from, camera] = await page.evaluate(() => [[...window.cairn.app.stage.panels[0].frame.rays.slice(0, 3)],
+      window.cairn.app.stage.camera.position.toArray()]);
+    from.forEach((x, i) => assert.ok(Math.abs(x - camera[i]) < 1e-3, `${from} is not ${camera}`));
+    await page.evaluate(() => window.cairn.app.stage.camera.position.add({ x: 1, y: 1, z: 2 }));
+    await page.evaluate(() => { window.cairn.app.stage.controls.update(); window.cairn.app.stage.touch(); });
+    await page.waitForTimeout(500);
+    await shot(page, 'live-rays');
+    await page.click('#layer-rays');
+    await until(page, 'window.cairn.app.stage.panels[0].frame && !window.cairn.app.stage.panels[0].frame.rays');
     await page.click('#tab-charts');
     await page.waitForTimeout(500);
     await shot(page, 'live-charts');

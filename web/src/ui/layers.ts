@@ -26,6 +26,7 @@ export const switches: Choice<Switch>[] = [
   { key: 'bounds', label: 'Bounding boxes', hint: 'As the broad phase sees them', shortcut: 'B', swatch: overlayHex.bounds },
   { key: 'joints', label: 'Joints', hint: 'Where bodies are joined, with rods, ropes and the axes of hinges and sliders', shortcut: 'J', swatch: overlayHex.joints },
   { key: 'laws', label: 'Laws of motion', hint: 'Where bodies go, swing and turn by a law, and how belts run', shortcut: 'L', swatch: overlayHex.moves },
+  { key: 'rays', label: 'Rays', hint: 'Cast from the camera as it is now, with the normals where they hit; look from elsewhere to see them', shortcut: 'Y', swatch: overlayHex.outline },
   { key: 'shadows', label: 'Shadows', hint: 'Of the sun', shortcut: 'S' },
   { key: 'grid', label: 'Grid', hint: 'The scale of its lines stands below the picture', shortcut: 'G' },
 ];

@@ -1,4 +1,4 @@
-/** What the simulation did, drawn over the bodies: contacts, normals, impulses, friction, moves, bounds, springs. */
+/** What the simulation did, drawn over the bodies: contacts, normals, impulses, friction, moves, bounds, springs, rays. */
 import {
   BufferAttribute, BufferGeometry, DynamicDrawUsage, Group, LineBasicMaterial, LineSegments, Matrix4, Points, PointsMaterial, Quaternion,
   Vector3,
@@ -14,8 +14,8 @@ class Segments {
   private used = 0;
   private points = new Float32Array(6 * 256);
 
-  constructor(colour: string, depthTest: boolean) {
-    this.object = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: colour, depthTest, transparent: true }));
+  constructor(colour: string, depthTest: boolean, opacity = 1) {
+    this.object = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: colour, depthTest, opacity, transparent: true }));
     this.object.frustumCulled = false;
     this.object.renderOrder = 2;
   }
@@ -65,6 +65,8 @@ export class Overlays {
     springs: new Segments(overlayHex.moves, false),
     joints: new Segments(overlayHex.joints, false),
     laws: new Segments(overlayHex.moves, false),
+    rays: new Segments(overlayHex.outline, true, 0.4),
+    hits: new Segments(overlayHex.normals, false),
     outline: new Segments(overlayHex.outline, false),
   };
   private readonly points = dots(overlayHex.points, 5);
@@ -92,6 +94,7 @@ export class Overlays {
     const s = frame.springs;
     for (let i = 0; s && i + 5 < s.length; i += 6) this.lines.springs.add(s[i], s[i + 1], s[i + 2], s[i + 3], s[i + 4], s[i + 5]);
     this.lines.springs.end();
+    this.drawRays(options.rays ? frame.rays : undefined, size);
     this.drawJoints(options.joints ? frame.joints : undefined, frame, size);
   }
 
@@ -180,6 +183,19 @@ export class Overlays {
     }
     lines.end();
     show(this.pins.geometry, new Float32Array(pins), pins.length / 3);
+  }
+
+  /** Each ray up to where it hits, and the normal there. */
+  private drawRays(rays: Float32Array | undefined, size: number): void {
+    const { rays: lines, hits } = this.lines;
+    for (const segments of [lines, hits]) segments.begin();
+    const length = 0.45 * size;
+    for (let i = 0; rays && i + 8 < rays.length; i += 9) {
+      const [fx, fy, fz, x, y, z, nx, ny, nz] = rays.subarray(i, i + 9);
+      lines.add(fx, fy, fz, x, y, z);
+      hits.add(x, y, z, x + length * nx, y + length * ny, z + length * nz);
+    }
+    for (const segments of [lines, hits]) segments.end();
   }
 
   private drawBounds(frame: Frame): void {
