@@ -136,9 +136,9 @@ def test_bodies_and_the_frame_move_by_laws() -> None:
     assert world.frame_motion == shaken
     world.frame_motion = None
     assert world.frame_motion is None
-    law = cairn.TableMotion([0, 1], [[0, 0, 0], [0, 0, 5]])
-    world.set_gravity([0, 0, -10], law)
-    assert world.gravity_law == law
+    rising = cairn.TableMotion([0, 1], [[0, 0, 0], [0, 0, 5]])
+    world.set_gravity([0, 0, -10], rising)
+    assert world.gravity_law == rising
     world.step(300)
     assert world.gravity.tolist() == [0, 0, -5]
     world.gravity = [0, 0, -10]
