@@ -48,10 +48,10 @@ Result run(const Plan& plan) {
             }
             const std::string setup = fmt::format("m₁/m₂ = {:g}, e = {}, worst time step", ratio, restitution);
             const bool stopped = ratio < 1 && restitution == 0;
-            result.atMost(
-                "error of both velocities, relative to the larger", "", velocities, 1e-12, setup,
-                stopped ? "only this part of the speed is left, and the impulses that take the rest are rounded at 1e-16 of all"
-                        : "");
+            result.atMost("error of both velocities, relative to the larger", "", velocities, 1e-12, setup,
+                          stopped ? "only this part of the speed is left, and the impulses that take the rest are "
+                                    "rounded at 1e-16 of all"
+                                  : "");
             result.atMost("momentum, relative error", "", momentum, 1e-12, setup);
         }
     }
