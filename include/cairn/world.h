@@ -104,19 +104,19 @@ enum class Checks : std::uint8_t {
 };
 
 struct WorldState;
-struct MomentState;
+struct RollbackData;
 
 /// A world at one time, in memory only: what rollback keeps in every step. Empty until World::keep().
-class Moment {
+class RollbackState {
   public:
-    Moment();  ///< holds nothing yet
-    ~Moment();
-    Moment(Moment&&) noexcept;
-    Moment& operator=(Moment&&) noexcept;
+    RollbackState();  ///< holds nothing yet
+    ~RollbackState();
+    RollbackState(RollbackState&&) noexcept;
+    RollbackState& operator=(RollbackState&&) noexcept;
 
   private:
     friend class World;
-    std::unique_ptr<MomentState> state_;
+    std::unique_ptr<RollbackData> state_;
 };
 
 /// A simulated world. Not copyable; one thread at a time may use it (its own threads are inside step()). Only questions
@@ -316,11 +316,11 @@ class World {
     static World restore(std::span<const std::byte> snapshot);
     /// Becomes what was saved; ids of that time are valid again. Unchanged if it throws. @throws as restore()
     void load(std::span<const std::byte> snapshot);
-    /// Overwrites a moment with what save() would write, at a fraction of its cost when the moment's memory is there
+    /// Overwrites a state with what save() would write, at a fraction of its cost when the state's memory is there
     /// already: bodies, shapes and materials are shared as long as none is added, removed or changed by a call.
-    void keep(Moment& moment) const;
+    void keep(RollbackState& state) const;
     /// Becomes what was kept, of this or another world, as load() of a snapshot does. @throws InputError if it is empty
-    void load(const Moment& moment);
+    void load(const RollbackState& state);
 
     // --- questions: about the bodies where they are now, also before the first step ---
     /// The nearest body that a ray hits; of several at one distance that with the lowest id, and its lowest part.

@@ -2175,7 +2175,7 @@ class BuiltInScene:
     def example(self) -> str:
         """A name that can be given: 'tower:10'."""
 
-class Moment:
+class RollbackState:
     """A world at one time, in memory only. Empty until World.keep()."""
 
     def __init__(self) -> None: ...
@@ -2371,10 +2371,10 @@ class World:
     @staticmethod
     def restore(snapshot: bytes) -> World:
         """A world as it was saved. Raises InputError."""
-    def load(self, state: Union[Moment, bytes], /) -> None:
+    def load(self, state: Union[RollbackState, bytes], /) -> None:
         """Becomes what was kept or saved. Raises InputError."""
-    def keep(self, moment: Moment) -> None:
-        """Overwrites a moment with what the world is."""
+    def keep(self, state: RollbackState) -> None:
+        """Overwrites a kept state with what the world is."""
     def contacts(self) -> Structured:
         """Of the last step, by (a, b): an array of contact_dtype."""
     def batches(self) -> list[BatchInfo]:

@@ -20,9 +20,9 @@ ball = int(np.argmax(np.abs(world.bodies.linear_velocity).max(axis=1)))
 world.step(120)
 
 # %%
-# The moment is kept before the ball has gone through the last wall.
-moment = cairn.Moment()
-world.keep(moment)
+# The state is kept before the ball has gone through the last wall.
+state = cairn.RollbackState()
+world.keep(state)
 steps = 120 if SHORT else 480
 
 
@@ -37,13 +37,13 @@ def go_on() -> tuple[list[float], list[int]]:
 
 
 first, first_hashes = go_on()
-world.load(moment)
+world.load(state)
 again, again_hashes = go_on()
 assert first_hashes == again_hashes
 
 # %%
 # A millionth of a newton second makes another history: chaos, but the same chaos each time.
-world.load(moment)
+world.load(state)
 id = next(id for id in world.bodies if id.index == ball)
 world.apply_impulse(id, [1e-6, 0, 0])
 other, other_hashes = go_on()
@@ -54,7 +54,7 @@ times = np.arange(steps) / world.settings.steps_per_second
 difference = np.abs(np.array(other) - np.array(first))
 axes.semilogy(times, np.maximum(difference, 1e-16), "-", label="with an impulse of 10⁻⁶ N s more")
 axes.semilogy(times, np.maximum(np.abs(np.array(again) - np.array(first)), 1e-16), "--", label="the same again (0)")
-axes.set_xlabel("time since the moment [s]")
+axes.set_xlabel("time since the state [s]")
 axes.set_ylabel("difference of the ball's place [m]")
 axes.legend()
 fig.tight_layout()

@@ -147,7 +147,7 @@ void bindSnapshots(WorldClass& world) {
             "Everything that the world is, so that it goes on bit by bit as it would have.")
         .def_static("restore", &restoredWorld, py::arg("snapshot"), "A world as it was saved. Raises InputError.")
         .def(
-            "load", [](const PyWorld& self, const Moment& moment) { self.use().load(moment); }, py::arg("moment"),
+            "load", [](const PyWorld& self, const RollbackState& state) { self.use().load(state); }, py::arg("state"),
             "Becomes what was kept or saved. Raises InputError.")
         .def(
             "load",
@@ -156,7 +156,7 @@ void bindSnapshots(WorldClass& world) {
                 self.use().load(bytesIn(copy));
             },
             py::arg("snapshot"))
-        .def("keep", on(&World::keep), py::arg("moment"), "Overwrites a moment with what the world is.")
+        .def("keep", on(&World::keep), py::arg("state"), "Overwrites a kept state with what the world is.")
         .def(py::pickle([](const PyWorld& self) { return bytesOf(self.use().save()); },
                         [](const py::bytes& snapshot) { return restoredWorld(snapshot); }));
 }
@@ -191,7 +191,7 @@ void bindAfterStep(WorldClass& world) {
 }  // namespace
 
 void bindWorld(py::module_& module) {
-    py::class_<Moment>(module, "Moment", "A world at one time, in memory only. Empty until World.keep().")
+    py::class_<RollbackState>(module, "RollbackState", "A world at one time, in memory only. Empty until World.keep().")
         .def(py::init<>());
     WorldClass world(module, "World",
                      "A simulated world: right-handed, SI units, world frame W unless named. One thread at a time may "

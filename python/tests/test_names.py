@@ -29,7 +29,7 @@ WITHOUT: dict[str, str] = {
     "TriangleCorners": "rows of arrays of numpy",
     "ConvexHull.data": "for the engine itself",
     "WorldState": "for the engine itself",
-    "MomentState": "for the engine itself",
+    "RollbackData": "for the engine itself",
     "DiagnosticsField.Fold": "Fold",
     "stage_count": "len(stage_names)",
     "presetNamed": "Preset['accuracy']; names are taken wherever members are",
@@ -158,5 +158,5 @@ def test_a_name_of_python_has_one_in_cpp() -> None:
 
 def test_what_has_no_name_is_still_there() -> None:
     types = set(NAMES) | {name.split(".")[0] for name in NAMES}
-    forward = {"HullData", "BoundsTree", "SurfaceData", "WorldState", "MomentState"}
+    forward = {"HullData", "BoundsTree", "SurfaceData", "WorldState", "RollbackData"}
     assert [name for name in WITHOUT if name not in types | forward] == []

@@ -117,7 +117,7 @@ class OldArrays(RuleBasedStateMachine):
         super().__init__()
         self.world, self.oak = ground()
         self.kept: list[np.ndarray] = []  # type: ignore[type-arg]
-        self.moment = cairn.Moment()
+        self.moment = cairn.RollbackState()
         self.world.keep(self.moment)
         self.saved = self.world.save()
 

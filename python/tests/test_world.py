@@ -94,7 +94,7 @@ def test_pickles_and_moments_are_snapshots() -> None:
     world = tower(4)
     world.step(7)
     copy = pickle.loads(pickle.dumps(world))
-    moment = cairn.Moment()
+    moment = cairn.RollbackState()
     world.keep(moment)
     saved = world.save()
     world.step(30)
@@ -108,7 +108,7 @@ def test_pickles_and_moments_are_snapshots() -> None:
     with pytest.raises(cairn.InputError):
         cairn.World.restore(saved[:-5])
     with pytest.raises(cairn.InputError):
-        world.load(cairn.Moment())
+        world.load(cairn.RollbackState())
     with pytest.raises(TypeError):
         pickle.dumps(moment)
 

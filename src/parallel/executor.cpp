@@ -6,8 +6,8 @@
 namespace cairn {
 
 Executor::Executor(int threads)
-    : threads_(std::clamp(threads, 1, Crew::most_threads)),
-      crew_(threads_ > 1 ? std::make_unique<Crew>(threads_) : nullptr) {}
+    : threads_(std::clamp(threads, 1, ThreadPool::most_threads)),
+      pool_(threads_ > 1 ? std::make_unique<ThreadPool>(threads_) : nullptr) {}
 
 void Executor::forBlocks(std::size_t count, FunctionRef<void(std::size_t, std::size_t, int)> work,
                          std::size_t grain) const {
@@ -17,7 +17,7 @@ void Executor::forBlocks(std::size_t count, FunctionRef<void(std::size_t, std::s
         work(0, count, 0);
         return;
     }
-    crew_->run(static_cast<int>(blocks), [&](int thread) {
+    pool_->run(static_cast<int>(blocks), [&](int thread) {
         const auto block = static_cast<std::size_t>(thread);
         work(count * block / blocks, count * (block + 1) / blocks, thread);
     });
@@ -29,7 +29,7 @@ void Executor::forEachDynamic(std::size_t count, FunctionRef<void(std::size_t, i
         return;
     }
     std::atomic<std::size_t> next = 0;
-    crew_->run(threads_, [&](int thread) {
+    pool_->run(threads_, [&](int thread) {
         for (std::size_t i = next++; i < count; i = next++) work(i, thread);
     });
 }

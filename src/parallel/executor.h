@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <memory>
 
-#include "parallel/crew.h"
 #include "parallel/function_ref.h"
+#include "parallel/thread_pool.h"
 
 namespace cairn {
 
@@ -31,7 +31,7 @@ class Executor {
 
   private:
     int threads_;
-    std::unique_ptr<Crew> crew_;  ///< none for one thread
+    std::unique_ptr<ThreadPool> pool_;  ///< none for one thread
 };
 
 }  // namespace cairn

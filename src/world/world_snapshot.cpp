@@ -1,6 +1,6 @@
 /// The part of World that saves and restores.
 #include "cairn/world.h"
-#include "world/moment.h"
+#include "world/rollback.h"
 #include "world/snapshot.h"
 #include "world/world_state.h"
 
@@ -36,19 +36,19 @@ void World::load(std::span<const std::byte> snapshot) {
     *this = std::move(loaded);
 }
 
-Moment::Moment() = default;
-Moment::~Moment() = default;
-Moment::Moment(Moment&&) noexcept = default;
-Moment& Moment::operator=(Moment&&) noexcept = default;
+RollbackState::RollbackState() = default;
+RollbackState::~RollbackState() = default;
+RollbackState::RollbackState(RollbackState&&) noexcept = default;
+RollbackState& RollbackState::operator=(RollbackState&&) noexcept = default;
 
-void World::keep(Moment& moment) const {
-    if (moment.state_ == nullptr) moment.state_ = std::make_unique<MomentState>();
-    keepMoment(*state_, *moment.state_);
+void World::keep(RollbackState& state) const {
+    if (state.state_ == nullptr) state.state_ = std::make_unique<RollbackData>();
+    keepRollback(*state_, *state.state_);
 }
 
-void World::load(const Moment& moment) {
-    if (moment.state_ == nullptr) throw InputError("the moment is empty; fill it with World::keep() first");
-    loadMoment(*moment.state_, *state_);
+void World::load(const RollbackState& state) {
+    if (state.state_ == nullptr) throw InputError("the state is empty; fill it with World::keep() first");
+    loadRollback(*state.state_, *state_);
 }
 
 }  // namespace cairn

@@ -145,7 +145,7 @@ struct WorldState {
     std::uint64_t places_version = 1;            ///< raised by whatever moves, adds or removes bodies
     CurrentIndex index;                          ///< of the bodies, for questions
     std::mutex asking;                           ///< held by the question that uses the executor
-    std::shared_ptr<const LastingPart> lasting;  ///< shared with the last moment; null = it changed since
+    std::shared_ptr<const LastingPart> lasting;  ///< shared with the state that was kept last; null = it changed since
 };
 
 /// One time step. @source thesis Algorithm 6

@@ -88,7 +88,7 @@ TEST(BodyViews, TheLayoutVersionChangesWithBodiesAndLoadedStatesOnly) {
     world.setFixed(two.ids[1], true);
     world.step();
     EXPECT_FALSE(changes());
-    Moment moment;
+    RollbackState moment;
     world.keep(moment);
     const std::vector<std::byte> snapshot = world.save();
     world.step();

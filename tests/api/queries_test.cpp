@@ -157,7 +157,7 @@ TEST(WorldQueries, FollowEveryChangeOfTheWorld) {
     world.setLinearVelocity(ball, Vec3(0, 0, 2.4));
     world.step();
     EXPECT_EQ(world.castRay(down)->point.z(), world.pose(ball).position.z() + 1);
-    Moment moment;
+    RollbackState moment;
     world.keep(moment);
     const double height = world.castRay(down)->point.z();
     world.removeBody(ball);

@@ -27,7 +27,7 @@ struct Made {
     std::vector<BodyId> bodies;
     std::vector<SpringId> springs;
     std::vector<JointId> joints;
-    Moment moment;
+    RollbackState moment;
     std::vector<std::byte> moment_saved;  ///< the world of the moment; empty before there is one
 
     static constexpr std::size_t most_joints = 16;

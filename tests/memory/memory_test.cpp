@@ -116,7 +116,7 @@ TEST(Rollback, SavingIntoTheSameBufferTakesNoMemoryForTheState) {
 
 TEST(Rollback, KeepingAndLoadingMomentsTakesNothingFromTheHeap) {
     SceneRun run(builtInScene("wall:10"), settingsFor(builtInScene("wall:10")));
-    std::vector<Moment> ring(10);
+    std::vector<RollbackState> ring(10);
     const auto go = [&](std::size_t steps) {
         for (std::size_t i = 0; i < steps; ++i) {
             run.world().keep(ring[i % ring.size()]);

@@ -269,7 +269,7 @@ TEST(Filters, GoOnFromSnapshotsAndMoments) {
     f.world.setGravityFactor(ids[3], 0.3);
     f.world.setDamping(ids[4], 1, 1);
     f.world.setUserData(ids[5], UINT64_MAX);
-    Moment moment;
+    RollbackState moment;
     f.world.keep(moment);
     World restored = World::restore(f.world.save());
     for (int i = 0; i < 200; ++i) {

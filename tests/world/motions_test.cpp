@@ -212,7 +212,7 @@ TEST(Motion, GoesOnFromSnapshotsAndMoments) {
     t.world.setFrameMotion(frame);
     t.world.setGravity({0, 0, -10}, SineMotion{.amplitude = {1, 0, 3}, .frequency = 0.7});
     t.run(0.3);
-    Moment moment;
+    RollbackState moment;
     t.world.keep(moment);
     World restored = World::restore(t.world.save());
     World other;

@@ -58,7 +58,7 @@ TEST(StateHash, ARestoredWorldGivesTheNextBodyTheSameNumber) {
     const BodyId first = world.addBody(hashedBall(0));
     world.addBody(hashedBall(1));
     world.removeBody(first);
-    Moment moment;
+    RollbackState moment;
     world.keep(moment);
     World restored = World::restore(world.save());
     world.addBody(hashedBall(2));

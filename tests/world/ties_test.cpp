@@ -62,7 +62,7 @@ TEST(Ties, ThatCameAfterARemovalGoWithTheirBodies) {
 
 TEST(Ties, ThatARollbackBroughtBackGoWithTheirBodies) {
     Chain c;
-    Moment moment;
+    RollbackState moment;
     c.world.keep(moment);
     c.world.removeBody(c.boxes[3]);
     c.tie(2, 4);

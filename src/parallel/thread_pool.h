@@ -13,19 +13,19 @@
 
 namespace cairn {
 
-/// A caller and its helpers, who wait for loops between which the caller works alone. Starting a loop costs about a
+/// A caller and its workers, who wait for loops between which the caller works alone. Starting a loop costs about a
 /// microsecond. Whoever is free takes the next share of a loop that nobody has begun, and the caller waits for nothing
-/// but shares that somebody has: helpers who get their processor late, on a machine that is busy with other things,
+/// but shares that somebody has: workers who get their processor late, on a machine that is busy with other things,
 /// find their share done and keep nobody waiting.
-class Crew {
+class ThreadPool {
   public:
     static constexpr int most_threads = 0xfffe;
 
-    /// The helpers come with the first loop. @param threads caller and helpers together, 2 to most_threads
-    explicit Crew(int threads);
-    ~Crew();
-    Crew(const Crew&) = delete;
-    Crew& operator=(const Crew&) = delete;
+    /// The workers come with the first loop. @param threads caller and workers together, 2 to most_threads
+    explicit ThreadPool(int threads);
+    ~ThreadPool();
+    ThreadPool(const ThreadPool&) = delete;
+    ThreadPool& operator=(const ThreadPool&) = delete;
 
     /// Runs work(share) once for each share in [0, shares) and returns when all have been done. If some throw, the
     /// exception of the lowest share is thrown at the end. @pre shares ≤ threads, not called by a share
@@ -37,10 +37,10 @@ class Crew {
         std::atomic<std::uint64_t> round = 0;
     };
 
-    void help(int helper);
-    std::uint64_t awaitNews(std::uint64_t known);
-    void announce(std::uint64_t news);
-    void takeShare(std::uint64_t news, int share);
+    void serve(int worker);
+    std::uint64_t awaitJob(std::uint64_t known);
+    void publish(std::uint64_t job);
+    void takeShare(std::uint64_t job, int share);
 
     int present_;  ///< threads that come: no more than there are processors, they take the shares of the others
     std::uint64_t round_ = 0;  ///< number of the last loop
@@ -51,12 +51,12 @@ class Crew {
     int failed_share_ = 0;
     std::exception_ptr failure_;
 
-    alignas(64) std::atomic<std::uint64_t> news_ = 0;  ///< round and number of shares of the newest loop
-    alignas(64) std::atomic<int> unfinished_ = 0;      ///< shares of the newest loop
-    alignas(64) std::atomic<int> sleeping_ = 0;        ///< helpers that wait for awaken_
+    alignas(64) std::atomic<std::uint64_t> job_ = 0;  ///< round and number of shares of the newest loop
+    alignas(64) std::atomic<int> unfinished_ = 0;     ///< shares of the newest loop
+    alignas(64) std::atomic<int> sleeping_ = 0;       ///< workers that wait for wake_
     std::mutex sleep_;
-    std::condition_variable awaken_;
-    std::thread foreman_;  ///< brings the helpers, and is one of them; waits for the others when the crew is dismissed
+    std::condition_variable wake_;
+    std::thread leader_;  ///< brings the workers, and is one of them; waits for the others when the pool is shut down
 };
 
 }  // namespace cairn

@@ -1,5 +1,5 @@
-/// @file A moment of a world for rollback. What steps never change stands in a part that the world and all moments
-/// share until it changes, so that keeping a moment copies little more than what moves.
+/// @file The state of a world for rollback. What steps never change stands in a part that the world and all kept states
+/// share until it changes, so that keeping one copies little more than what moves.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct LastingPart {
 };
 
 /// The rest, with the part that it shares.
-struct MomentState {
+struct RollbackData {
     std::shared_ptr<const LastingPart> lasting;
     Settings settings;
     BodyArrays bodies;  ///< the fields that steps change; the others are empty
@@ -41,10 +41,10 @@ struct MomentState {
     std::vector<Event> events;
 };
 
-/// Overwrites a moment, whose memory is used again.
-void keepMoment(WorldState& world, MomentState& moment);
+/// Overwrites what was kept, whose memory is used again.
+void keepRollback(WorldState& world, RollbackData& kept);
 
 /// What the user watches the world with is no part of its state and stays.
-void loadMoment(const MomentState& moment, WorldState& world);
+void loadRollback(const RollbackData& kept, WorldState& world);
 
 }  // namespace cairn

@@ -119,7 +119,7 @@ TEST(Moments, EveryCallAfterwardsIsUndone) {
         Yard yard;
         for (int i = 0; i < 60; ++i) yard.world.step();
         // The first moment leaves behind what the second one shares.
-        Moment moment;
+        RollbackState moment;
         for (int i = 0; i < 2; ++i) yard.world.keep(moment);
         const Bytes before = yard.world.save();
         for (int i = 0; i < 5; ++i) yard.world.step();
@@ -138,11 +138,11 @@ TEST(Moments, EveryCallAfterwardsIsUndone) {
 TEST(Moments, WhatIsCalledBeforeThemIsKept) {
     for (const Call& call : everyCall()) {
         Yard yard;
-        Moment earlier;
+        RollbackState earlier;
         yard.world.keep(earlier);
         for (int i = 0; i < 30; ++i) yard.world.step();
         call.make(yard);
-        Moment moment;
+        RollbackState moment;
         yard.world.keep(moment);
         const Bytes before = yard.world.save();
         yard.world.load(earlier);
@@ -169,7 +169,7 @@ TEST(Pairs, AreFoundAsIfAnewAfterEveryCall) {
     Yard yard(ResolutionKind::accelerated_sweeps);
     for (int i = 0; i < 500; ++i) yard.world.step();
     ASSERT_GT(yard.world.statistics().asleep, 10) << "there must be something still";
-    Moment settled;
+    RollbackState settled;
     yard.world.keep(settled);
     for (const Call& call : calls) {
         yard.world.load(settled);
@@ -199,7 +199,7 @@ class RollingBack : public testing::TestWithParam<ResolutionKind> {};
 
 TEST_P(RollingBack, SixtyStepsAgainAndAgainGivesTheSameBits) {
     Yard yard(GetParam());
-    std::vector<Moment> ring(60);
+    std::vector<RollbackState> ring(60);
     std::vector<Bytes> straight;
     for (int i = 0; i < 180; ++i) {
         straight.push_back(yard.world.save());
@@ -225,7 +225,7 @@ INSTANTIATE_TEST_SUITE_P(Resolutions, RollingBack,
 TEST(Moments, FitAnotherWorldAndLeaveWhatWatchesIt) {
     Yard yard;
     for (int i = 0; i < 40; ++i) yard.world.step();
-    Moment moment;
+    RollbackState moment;
     yard.world.keep(moment);
     World other;
     other.setTracing(Tracing::on);
@@ -239,7 +239,7 @@ TEST(Moments, FitAnotherWorldAndLeaveWhatWatchesIt) {
 }
 
 TEST(Moments, OfOneWorldDoNotDependOnItsEnd) {
-    Moment moment;
+    RollbackState moment;
     Bytes before;
     {
         Yard yard;
@@ -247,7 +247,7 @@ TEST(Moments, OfOneWorldDoNotDependOnItsEnd) {
         yard.world.keep(moment);
         before = yard.world.save();
     }
-    const Moment moved = std::move(moment);
+    const RollbackState moved = std::move(moment);
     World world;
     world.load(moved);
     EXPECT_TRUE(world.save() == before);
@@ -256,7 +256,7 @@ TEST(Moments, OfOneWorldDoNotDependOnItsEnd) {
 TEST(Moments, AnEmptyOneIsRefused) {
     Yard yard;
     const Bytes before = yard.world.save();
-    EXPECT_THROW(yard.world.load(Moment()), InputError);
+    EXPECT_THROW(yard.world.load(RollbackState()), InputError);
     EXPECT_TRUE(yard.world.save() == before);
 }
 
