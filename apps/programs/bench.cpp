@@ -9,6 +9,7 @@
 #include "bench/plot.h"
 #include "bench/scaling.h"
 #include "bench/scenes.h"
+#include "bench/threads.h"
 #include "cli/bench_progress.h"
 #include "cli/companions.h"
 #include "cli/interrupt.h"
@@ -269,6 +270,36 @@ void addScalingSuite(CLI::App& bench, int& exit_code) {
     });
 }
 
+struct ThreadsArguments {
+    std::vector<std::string> scenes;
+    double seconds = 2;
+    std::size_t pairs = 15;
+    SuiteArguments suite;
+};
+
+void addThreadsSuite(CLI::App& bench, int& exit_code) {
+    CLI::App* command = bench.add_subcommand("threads", "Measure whether a second thread ever costs time");
+    auto arguments = std::make_shared<ThreadsArguments>();
+    command->add_option("--scenes", arguments->scenes, "Default: stacks5,well392,cage384")->delimiter(',');
+    command->add_option("--duration", arguments->seconds, "Longest simulated time of a run; default: 2")
+        ->type_name("S")
+        ->check(CLI::Range(1e-3, longest_duration));
+    command->add_option("--pairs", arguments->pairs, "Runs on one and on two threads, in turns; default: 15")
+        ->check(CLI::Range(1, most_repetitions));
+    addSuiteOptions(*command, arguments->suite);
+    command->callback([arguments, &exit_code] {
+        bench::ThreadsOptions options;
+        options.scenes = arguments->scenes;
+        options.seconds = arguments->seconds;
+        options.pairs = arguments->pairs;
+        options.extent = arguments->suite.extent();
+        exit_code = runSuite(arguments->suite, [&](const bench::Progress& progress) {
+            options.progress = progress;
+            return bench::runThreads(options);
+        });
+    });
+}
+
 void addKernelsSuite(CLI::App& bench, int& exit_code) {
     CLI::App* command = bench.add_subcommand("kernels", "Measure the inner loops alone: ns per contact, pair or body");
     auto arguments = std::make_shared<KernelsArguments>();
@@ -298,6 +329,7 @@ void addSuites(CLI::App& bench, int& exit_code) {
     addKernelsSuite(bench, exit_code);
     addScenesSuite(bench, exit_code);
     addScalingSuite(bench, exit_code);
+    addThreadsSuite(bench, exit_code);
     addPeersSuite(bench, exit_code);
 }
 

@@ -13,7 +13,7 @@ void Executor::forBlocks(std::size_t count, FunctionRef<void(std::size_t, std::s
                          std::size_t grain) const {
     if (count == 0) return;
     const std::size_t blocks = std::min(static_cast<std::size_t>(threads_), count / std::max<std::size_t>(grain, 1));
-    if (blocks <= 1) {
+    if (blocks <= 1 || !helped_) {
         work(0, count, 0);
         return;
     }
@@ -24,7 +24,7 @@ void Executor::forBlocks(std::size_t count, FunctionRef<void(std::size_t, std::s
 }
 
 void Executor::forEachDynamic(std::size_t count, FunctionRef<void(std::size_t, int)> work) const {
-    if (threads_ == 1 || count < 2) {
+    if (threads_ == 1 || !helped_ || count < 2) {
         for (std::size_t i = 0; i < count; ++i) work(i, 0);
         return;
     }

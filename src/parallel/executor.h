@@ -18,6 +18,8 @@ class Executor {
     explicit Executor(int threads = 1);
 
     int threads() const { return threads_; }
+    /// Whether the other threads take part in loops from now on; at first they do. No result depends on it.
+    void setHelped(bool helped) { helped_ = helped; }
 
     /// Splits [0, count) into one contiguous block per thread ("static" of thesis §4), ascending with the thread.
     /// @param work called with (begin, end, thread), thread in [0, threads())
@@ -31,6 +33,7 @@ class Executor {
 
   private:
     int threads_;
+    bool helped_ = true;
     std::unique_ptr<ThreadPool> pool_;  ///< none for one thread
 };
 

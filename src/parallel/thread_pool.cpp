@@ -5,6 +5,9 @@
 #include <thread>
 #include <utility>
 
+#ifdef __linux__
+#include <sched.h>
+#endif
 #ifdef _OPENMP
 #include <omp.h>
 #endif
@@ -36,6 +39,10 @@ std::uint64_t sharesOf(std::uint64_t job) {
 
 /// Processors that the threads of this program may use; as many as anybody may ask for where that is not known.
 int processors() {
+#ifdef __linux__
+    cpu_set_t allowed;
+    if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return CPU_COUNT(&allowed);
+#endif
     const unsigned known = std::thread::hardware_concurrency();
     return known == 0 ? ThreadPool::most_threads : static_cast<int>(known);
 }

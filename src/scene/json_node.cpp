@@ -292,6 +292,7 @@ JsonNode JsonNode::required(std::string_view key, std::string_view allowed) cons
 }
 
 std::optional<JsonNode> JsonNode::find(std::string_view key) const {
+    if (!value_->is_object()) refuse(fmt::format("an object, for instance with the key {}", key));
     for (const auto& entry : value_->get_ref<const Json::object_t&>()) {
         if (entry.first == key) return member(entry.first, entry.second);
     }

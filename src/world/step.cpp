@@ -20,13 +20,17 @@ namespace cairn {
 
 namespace {
 
-/// Runs a stage and notes its wall time.
+/// Runs a stage, with the other threads where they help, and notes its wall time.
 template <class Work>
-void timed(Statistics& statistics, Stage stage, const Work& work) {
+void timed(WorldState& world, Stage stage, const Work& work) {
+    const auto index = static_cast<std::size_t>(stage);
+    HelpChoice& help = world.help[index];
+    world.executor.setHelped(help.next());
     const auto begin = std::chrono::steady_clock::now();
     work();
     const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - begin;
-    statistics.stage_ms[static_cast<std::size_t>(stage)] = passed.count();
+    world.statistics.stage_ms[index] = passed.count();
+    help.note(passed.count());
 }
 
 void measureIfAsked(WorldState& world, Measured point) {
@@ -226,9 +230,8 @@ void stepWorld(WorldState& world) {
     ++world.steps;
     ++world.places_version;
     world.statistics = {};
-    Statistics& statistics = world.statistics;
     const bool checked = world.checks != Checks::off;
-    timed(statistics, Stage::events, [&] {
+    timed(world, Stage::events, [&] {
         beginEvents(world);
         // What user code did between the steps may have overflowed.
         quarantine(world);
@@ -238,7 +241,7 @@ void stepWorld(WorldState& world) {
         beginLaws(world);
     });
     measureIfAsked(world, Measured::laws);
-    timed(statistics, Stage::positions, [&] {
+    timed(world, Stage::positions, [&] {
         if (world.settings.integration.exact_flight) notePositions(world.bodies, world.executor, world.data.before);
         const JointFlight::Motion motion{world.settings.integration, world.settings.gravity_damping,
                                          world.gravity + world.global_acceleration, world.settings.timeStep(),
@@ -249,20 +252,21 @@ void stepWorld(WorldState& world) {
         world.joint_flight.finish(world.joints, world.data.joint_groups, world.bodies, motion);
     });
     measureIfAsked(world, Measured::positions);
-    timed(statistics, Stage::detection, [&] {
+    timed(world, Stage::detection, [&] {
         world.data.pairs.beginStep(world.bodies, world.data.generation, world.executor);
         beginContacts(world.data.contacts, warmStart(world), world.executor);
         detect(world);
         findSensed(world);
     });
-    timed(statistics, Stage::batches, [&] { buildBatchesStage(world); });
-    timed(statistics, Stage::correction, [&] { correctStage(world); });
+    timed(world, Stage::batches, [&] { buildBatchesStage(world); });
+    timed(world, Stage::correction, [&] { correctStage(world); });
     measureIfAsked(world, Measured::correction);
-    timed(statistics, Stage::velocities, [&] { velocityStage(world); });
-    timed(statistics, Stage::resolution, [&] { resolveStage(world); });
-    timed(statistics, Stage::sleeping, [&] { sleepStage(world); });
+    timed(world, Stage::velocities, [&] { velocityStage(world); });
+    timed(world, Stage::resolution, [&] { resolveStage(world); });
+    timed(world, Stage::sleeping, [&] { sleepStage(world); });
     measureIfAsked(world, Measured::sleep);
-    timed(statistics, Stage::output, [&] { outputStage(world); });
+    timed(world, Stage::output, [&] { outputStage(world); });
+    world.executor.setHelped(true);
     if (checked) checkState(world);
     // A quotient, not a sum: after a million steps the time is still exact to one rounding.
     const auto since = static_cast<double>(world.steps - world.steps_at_start);

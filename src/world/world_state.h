@@ -1,6 +1,7 @@
 /// @file Everything a world holds: the bodies with what acts on them, and every array between the stages of a step.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -23,6 +24,7 @@
 #include "joints/joint_groups.h"
 #include "pairs/pair_table.h"
 #include "parallel/executor.h"
+#include "parallel/help_choice.h"
 #include "queries/spatial_index.h"
 #include "resolution/resolution.h"
 #include "world/driven_body.h"
@@ -114,6 +116,7 @@ struct WorldState {
 
     Settings settings;
     Executor executor;
+    std::array<HelpChoice, stage_count> help{};  ///< of each stage; measured times, on which no result depends
     std::unique_ptr<BroadPhase> broad_phase;
     std::vector<std::unique_ptr<Correction>> corrections;  ///< [threads]
     std::unique_ptr<Resolution> resolution;
