@@ -32,7 +32,9 @@ void BlockCholesky::reset(std::size_t size, std::span<const std::pair<std::uint3
 void BlockCholesky::order(std::size_t size, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings) {
     const auto n = static_cast<Eigen::Index>(size);
     std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(2 * couplings.size());
+    entries.reserve(size + 2 * couplings.size());
+    // Eigen leaves rows without a diagonal where they are.
+    for (int i = 0; i < static_cast<int>(size); ++i) entries.emplace_back(i, i, 1);
     for (const auto& [i, j] : couplings) {
         entries.emplace_back(static_cast<int>(i), static_cast<int>(j), 1);
         entries.emplace_back(static_cast<int>(j), static_cast<int>(i), 1);

@@ -28,6 +28,8 @@ class BlockCholesky {
     bool factorize();
     /// x := A⁻¹·x. @param x [size]
     void solve(std::span<Vec6> x);
+    /// Blocks of the factor.
+    std::size_t blocks() const { return rows_.size(); }
 
   private:
     void order(std::size_t size, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings);

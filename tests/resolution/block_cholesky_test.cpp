@@ -86,6 +86,15 @@ TEST(BlockCholesky, SolvesBodiesThatNothingCouples) {
     EXPECT_LT(Both(7, {}, 3).difference(), 1e-12);
 }
 
+TEST(BlockCholesky, EliminatesTheMiddleOfAStarLast) {
+    constexpr std::uint32_t size = 200;
+    Couplings star;
+    for (std::uint32_t i = 1; i < size; ++i) star.emplace_back(0, i);
+    BlockCholesky matrix;
+    matrix.reset(size, star);
+    EXPECT_EQ(matrix.blocks(), 2 * size - 1) << "nothing is filled in";
+}
+
 TEST(BlockCholesky, KeepsNothingOfTheLastMatrix) {
     Couplings ring;
     for (std::uint32_t i = 0; i < 20; ++i) ring.emplace_back(i, (i + 1) % 20);
