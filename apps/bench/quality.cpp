@@ -65,7 +65,7 @@ class OverlapMeter {
         settings.correction.correction = CorrectionKind::none;
         settings.resolution.resolution = ResolutionKind::none;
         settings.sleep.sleeping = false;
-        settings.gravity_damping.damping = 0;
+        settings.sleep.damping = 0;
         return settings;
     }
 

@@ -13,7 +13,6 @@ Settings accurateSettings(double steps_per_second, ResolutionKind resolver) {
         settings.resolution.iterations = 1000;
         settings.resolution.tolerance = 0;
         settings.resolution.resolution_threshold *= 1e-3;
-        settings.resolution.sweep_tolerance *= 0.1;
     }
     return settings;
 }

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "broad_phase/block_table.h"
-#include "broad_phase/broad_phase.h"
+#include "broad_phase/hash_grids.h"
 #include "kernel.h"
 
 namespace cairn::kernels {
@@ -80,7 +80,7 @@ Pass queryPass() {
 
 Pass pairsPass() {
     const auto cloud = std::make_shared<Cloud>(makeCloud());
-    const std::shared_ptr<BroadPhase> grids = makeBroadPhase(BroadPhaseKind::hash_grids);
+    const auto grids = std::make_shared<HashGrids>();
     Pass pass;
     pass.items = bodies;
     pass.prepare = [] {};

@@ -38,11 +38,11 @@ Pass correctPass() {
     };
     pass.run = [pile, contacts_of, correction] {
         CorrectionCounts counts =
-            correction->correct(pile->batch(), *contacts_of, pile->contacts, pile->state(), pile->settings.correction);
+            correction->correct(pile->batch(), *contacts_of, pile->contacts, pile->state(), remaining_penetration);
         keep(counts);
     };
     for (const Contact& contact : pile->contacts) {
-        if (contact.distance < -contact.allowed_overlap) ++pass.items;
+        if (contact.isTooDeep()) ++pass.items;
     }
     return pass;
 }

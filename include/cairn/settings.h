@@ -28,16 +28,13 @@ std::string_view nameOf(Preset preset);
 /// The preset with a name. @throws InputError for an unknown one; the text names all
 Preset presetNamed(std::string_view name);
 
-/// How candidates for contacts are found; both find the same.
-enum class BroadPhaseKind { hash_grids, all_pairs };
 /// Which penetration correction runs: the thesis's propagation, none, or sweeps over the overlapping contacts that move
 /// their bodies apart by inverse masses and take what that lifts from their motion. @source thesis §2
 enum class CorrectionKind { propagated, none, position_sweeps };
-/// How closing contacts are resolved: the thesis's queue, a plain sweep as an independent second one, sweeps with warm
-/// starting accelerated by conjugate gradients, or not at all.
-enum class ResolutionKind { impulse_queue, sweep, accelerated_sweeps, none };
-/// Which closing contact is resolved next. @source thesis §3.6 and §5.4
-enum class ResolutionOrder { highest_closing_speed, arbitrary };
+/// How closing contacts are resolved: the thesis's queue, the one that closes fastest first; the same in another order,
+/// to compare with; a plain sweep as an independent third one; sweeps with warm starting accelerated by conjugate
+/// gradients; or not at all. @source thesis §3.6 and §5.4
+enum class ResolutionKind { impulse_queue, arbitrary_order, sweep, accelerated_sweeps, none };
 
 /// What the coefficient of restitution says: the ratio of the speeds (the thesis), or of the works of compression and
 /// restitution, which never gains energy whatever friction does. @source Newton; Stronge 1990
@@ -51,14 +48,9 @@ enum class Impacts { of_resolution, sequential, simultaneous };
 
 /// Broad and narrow phase.
 struct DetectionSettings {
-    BroadPhaseKind broad_phase = BroadPhaseKind::hash_grids;  ///< all_pairs is its slow oracle
     /// Contacts are reported up to this distance before touching [m], ≥ 0; where penetration_threshold is 0, 0 stands
     /// for a sixteenth of the overlap that is allowed.
     double contact_margin = 0;
-    /// And so are those of bodies that would meet before the next detection: accelerated_sweeps lets them come just so
-    /// close, rather than fly into or through each other. What a call moved or added is looked ahead for from its
-    /// second step on. Not with RestitutionSpeed::touching.
-    bool speculative_contacts = true;
 };
 
 /// Penetration correction. @source thesis §2
@@ -66,54 +58,42 @@ struct CorrectionSettings {
     CorrectionKind correction = CorrectionKind::position_sweeps;  ///< the algorithm, or none
     /// Overlap above which a contact is corrected [m]; −thr_pen of the thesis; 0 = allowed_overlap.
     double penetration_threshold = 0;
-    double allowed_overlap = 0.0145;     ///< the same as a part of the smaller body's smallest extent, > 0
-    double remaining_penetration = 0.7;  ///< part of the threshold that a correction leaves, in (0, 1) (2.5.4)
+    double allowed_overlap = 0.0145;  ///< the same as a part of the smaller body's smallest extent, > 0
 };
 
 /// Contact resolution and shock propagation. @source thesis §3.3–3.8
 struct ResolutionSettings {
     ResolutionKind resolution = ResolutionKind::accelerated_sweeps;  ///< the algorithm, or none
-    ResolutionOrder order = ResolutionOrder::highest_closing_speed;  ///< of ResolutionKind::impulse_queue
     double resolution_threshold = 83.4e-6;   ///< closing speed above which a contact is resolved [m/s] (3.4.3)
     double restitution_threshold = 45.8e-3;  ///< closing speed below which restitution is zero [m/s] (3.8.1)
     RestitutionLaw restitution_law = RestitutionLaw::newton;         ///< what the coefficient of restitution says
     RestitutionSpeed restitution_speed = RestitutionSpeed::closing;  ///< the speed that it is about
     Impacts impacts = Impacts::of_resolution;                        ///< in chains of touching bodies
-    double global_iterations = 2;    ///< limit of resolutions as a multiple of the batch's contacts; 0 = unlimited
-    bool shock_propagation = true;   ///< Algorithm 10, when the limit was reached with contacts still closing
-    double shock_iterations = 6;     ///< the same limit for each stage of the shock propagation; 0 = unlimited
-    std::int64_t queue_switch = 64;  ///< batches with more contacts use the ordered queue (§3.8)
-    std::int64_t iterations = 100;   ///< most sweeps (forth and back) of accelerated_sweeps over a batch, ≥ 1
-    /// A batch is swept until what all further sweeps would change is estimated to be no more than this part of how its
-    /// contacts move, 0 to 1: exactly where it lies still. Less is left where bodies are in each other deeper than
-    /// allowed. 0 = until sweep_tolerance.
+    /// Most visits: resolutions as a multiple of the batch's contacts (impulse_queue, arbitrary_order; a part is
+    /// rounded up), or sweeps over a batch (sweep, and accelerated_sweeps, forth and back). 0 = no limit.
+    double iterations = 100;
+    /// accelerated_sweeps sweeps a batch until what all further sweeps would change is estimated to be no more than
+    /// this part of how its contacts move, 0 to 1: exactly where it lies still. Less is left where bodies are in each
+    /// other deeper than allowed. 0 = until a sweep changes no contact by more than a hundredth of
+    /// resolution_threshold.
     double tolerance = 0.25;
-    double sweep_tolerance = 1e-6;    ///< no more sweeps once a sweep changes no contact's velocity by more [m/s]
-    std::int64_t direct_limit = 100;  ///< batches at rest of up to so many bodies may take direct steps; 0 = none
-    double direct_pairs = 1.5;        ///< and of up to so many pairs in touch per body: stacks and chains; 0 = any
-    /// accelerated_sweeps leaves sleeping bodies of a batch asleep until their contacts push otherwise than when they
-    /// fell asleep, by what would give them this speed [m/s], ≥ 0; 0 = they wake as soon as their batch is resolved.
-    double wake_speed = 8.33e-3;
-    std::int64_t sweeps = 50;  ///< sweeps over the contacts of ResolutionKind::sweep, ≥ 1
+    bool shock_propagation = true;  ///< of impulse_queue: Algorithm 10, when iterations left contacts closing
 };
 
-/// Sleeping. @source thesis §3.2
+/// Sleeping, and the gravity damping of bodies that soon will. @source thesis §3.2, §3.8
 struct SleepSettings {
-    bool sleeping = true;              ///< off = every body stays awake
-    double sleep_threshold = 8.33e-3;  ///< a body whose averaged motion is below this sleeps [m/s], < |g|Δt (3.2.5)
-    double motion_bias = 0.9;          ///< weight of the history in the averaged motion, 0 ≤ bias < 1 (3.2.4)
-    double motion_limit = 3;           ///< the averaged motion is capped at limit·sleep_threshold, > 1 (Algorithm 5)
-};
-
-/// Velocity-dependent gravity damping. @source thesis §3.8
-struct GravityDampingSettings {
-    double damping = 0.7;                ///< part of gravity taken away from slow bodies, 0 = off, ≤ 1 (Algorithm 12)
-    double damping_threshold = 83.3e-3;  ///< bodies below this motion are damped [m/s]
+    bool sleeping = true;  ///< off = every body stays awake
+    /// A body whose averaged motion is below this sleeps [m/s], < |g|Δt (3.2.5). accelerated_sweeps leaves sleeping
+    /// bodies of a batch asleep until their contacts push otherwise than when they fell asleep, by what would make them
+    /// faster than this.
+    double sleep_threshold = 8.33e-3;
+    /// Part of gravity taken away from bodies whose motion is below ten times sleep_threshold, 0 = off, ≤ 0.99
+    /// (Algorithm 12).
+    double damping = 0.7;
 };
 
 /// Motion of free bodies.
 struct IntegrationSettings {
-    bool gyroscopic = true;    ///< torque-free rotation keeps its angular momentum (Euler's equations)
     bool exact_flight = true;  ///< smooth motion follows the mean of a step's velocities: free bodies, the parabola
 };
 
@@ -127,11 +107,6 @@ struct DiagnosticsSettings {
     bool diagnostics = false;  ///< fills Statistics::diagnostics in every step
 };
 
-/// What a world refuses to grow beyond.
-struct LimitSettings {
-    std::int64_t body_limit = 10'000'000;  ///< most bodies at one time, 1 to 1e9; a body needs about 4 kB
-};
-
 /// All settings of a world.
 struct Settings {
     double steps_per_second = 240;  ///< time steps per simulated second, 30 to 1e6; the thesis asks for at least 180
@@ -139,10 +114,8 @@ struct Settings {
     CorrectionSettings correction;
     ResolutionSettings resolution;
     SleepSettings sleep;
-    GravityDampingSettings gravity_damping;
     IntegrationSettings integration;
     ParallelSettings parallel;
-    LimitSettings limits;
     DiagnosticsSettings diagnostics;
 
     /// The length of a time step [s].

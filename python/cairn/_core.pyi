@@ -188,12 +188,6 @@ class Preset(enum.IntEnum):
     thesis = 2
     thesis_accuracy = 3
 
-class BroadPhaseKind(enum.IntEnum):
-    """How candidates for contacts are found."""
-
-    hash_grids = 0
-    all_pairs = 1
-
 class CorrectionKind(enum.IntEnum):
     """Which penetration correction runs."""
 
@@ -205,15 +199,10 @@ class ResolutionKind(enum.IntEnum):
     """How closing contacts are resolved."""
 
     impulse_queue = 0
-    sweep = 1
-    accelerated_sweeps = 2
-    none = 3
-
-class ResolutionOrder(enum.IntEnum):
-    """Which closing contact is resolved next."""
-
-    highest_closing_speed = 0
-    arbitrary = 1
+    arbitrary_order = 1
+    sweep = 2
+    accelerated_sweeps = 3
+    none = 4
 
 class RestitutionLaw(enum.IntEnum):
     """What the coefficient of restitution says: a ratio of speeds or of works."""
@@ -1274,22 +1263,11 @@ class TableMotion(_Record):
 class DetectionSettings(_Record):
     """Broad and narrow phase."""
 
-    def __init__(
-        self,
-        broad_phase: Union[BroadPhaseKind, str] = ...,
-        contact_margin: float = ...,
-        speculative_contacts: bool = ...,
-    ) -> None: ...
-    @property
-    def broad_phase(self) -> BroadPhaseKind:
-        """how pairs of near bodies are found"""
+    def __init__(self, contact_margin: float = ...) -> None: ...
     @property
     def contact_margin(self) -> float:
         """contacts are reported up to this distance before touching; 0 without penetration_threshold = a sixteenth of
         the overlap allowed [m]"""
-    @property
-    def speculative_contacts(self) -> bool:
-        """finds contacts of bodies that would meet within the step, too"""
 
 class CorrectionSettings(_Record):
     """Penetration correction."""
@@ -1299,7 +1277,6 @@ class CorrectionSettings(_Record):
         correction: Union[CorrectionKind, str] = ...,
         penetration_threshold: float = ...,
         allowed_overlap: float = ...,
-        remaining_penetration: float = ...,
     ) -> None: ...
     @property
     def correction(self) -> CorrectionKind:
@@ -1310,9 +1287,6 @@ class CorrectionSettings(_Record):
     @property
     def allowed_overlap(self) -> float:
         """the same as part of the smaller body's smallest extent, where penetration_threshold is 0"""
-    @property
-    def remaining_penetration(self) -> float:
-        """part of the threshold that a correction leaves (2.5.4)"""
 
 class ResolutionSettings(_Record):
     """Contact resolution and shock propagation."""
@@ -1320,30 +1294,18 @@ class ResolutionSettings(_Record):
     def __init__(
         self,
         resolution: Union[ResolutionKind, str] = ...,
-        order: Union[ResolutionOrder, str] = ...,
         resolution_threshold: float = ...,
         restitution_threshold: float = ...,
         restitution_law: Union[RestitutionLaw, str] = ...,
         restitution_speed: Union[RestitutionSpeed, str] = ...,
         impacts: Union[Impacts, str] = ...,
-        global_iterations: float = ...,
-        shock_propagation: bool = ...,
-        shock_iterations: float = ...,
-        queue_switch: int = ...,
-        iterations: int = ...,
+        iterations: float = ...,
         tolerance: float = ...,
-        sweep_tolerance: float = ...,
-        direct_limit: int = ...,
-        direct_pairs: float = ...,
-        wake_speed: float = ...,
-        sweeps: int = ...,
+        shock_propagation: bool = ...,
     ) -> None: ...
     @property
     def resolution(self) -> ResolutionKind:
         """algorithm of the contact resolution"""
-    @property
-    def order(self) -> ResolutionOrder:
-        """which closing contact is resolved next"""
     @property
     def resolution_threshold(self) -> float:
         """closing speed above which a contact is resolved (3.4.3) [m/s]"""
@@ -1360,81 +1322,36 @@ class ResolutionSettings(_Record):
     def impacts(self) -> Impacts:
         """impacts in touching chains: as the resolution does, in sequence or all at once"""
     @property
-    def global_iterations(self) -> float:
-        """limit of resolutions as a multiple of the batch's contacts; 0 = unlimited"""
-    @property
-    def shock_propagation(self) -> bool:
-        """shock propagation when the limit was reached (Algorithm 10)"""
-    @property
-    def shock_iterations(self) -> float:
-        """limit of each shock stage as a multiple of its contacts; 0 = unlimited"""
-    @property
-    def queue_switch(self) -> int:
-        """batches with more contacts use the ordered queue (3.8) [contacts]"""
-    @property
-    def iterations(self) -> int:
-        """most sweeps, forth and back, of 'accelerated_sweeps' over a batch"""
+    def iterations(self) -> float:
+        """most resolutions per contact of 'impulse_queue' and 'arbitrary_order', or sweeps over a batch of the others; 0
+        = no limit"""
     @property
     def tolerance(self) -> float:
-        """a batch is swept until about so much is left to change, as a part of how its contacts move"""
+        """'accelerated_sweeps' goes on until about so much is left to change, as a part of how a batch's contacts
+        move"""
     @property
-    def sweep_tolerance(self) -> float:
-        """no more sweeps of 'accelerated_sweeps' once one changes no contact's velocity by more [m/s]"""
-    @property
-    def direct_limit(self) -> int:
-        """batches at rest of up to so many bodies are solved directly where sweeps are not enough; 0 = none
-        [bodies]"""
-    @property
-    def direct_pairs(self) -> float:
-        """and only where at most so many pairs of its bodies touch, as in stacks and chains; 0 = any [per body]"""
-    @property
-    def wake_speed(self) -> float:
-        """'accelerated_sweeps' lets bodies sleep until their contacts' push changes by so much; 0 = not [m/s]"""
-    @property
-    def sweeps(self) -> int:
-        """sweeps over the contacts of the resolution 'sweep'"""
+    def shock_propagation(self) -> bool:
+        """shock propagation of 'impulse_queue' when iterations were not enough (Algorithm 10)"""
 
 class SleepSettings(_Record):
-    """Sleeping."""
+    """Sleeping and gravity damping."""
 
-    def __init__(
-        self,
-        sleeping: bool = ...,
-        sleep_threshold: float = ...,
-        motion_bias: float = ...,
-        motion_limit: float = ...,
-    ) -> None: ...
+    def __init__(self, sleeping: bool = ..., sleep_threshold: float = ..., damping: float = ...) -> None: ...
     @property
     def sleeping(self) -> bool:
         """bodies at rest fall asleep"""
     @property
     def sleep_threshold(self) -> float:
-        """a body whose averaged motion is below this sleeps (3.2.5) [m/s]"""
-    @property
-    def motion_bias(self) -> float:
-        """weight of the history in the averaged motion (3.2.4)"""
-    @property
-    def motion_limit(self) -> float:
-        """the averaged motion is capped at this multiple of sleep_threshold"""
-
-class GravityDampingSettings(_Record):
-    """Velocity-dependent gravity damping."""
-
-    def __init__(self, damping: float = ..., damping_threshold: float = ...) -> None: ...
+        """a body whose averaged motion is below this sleeps (3.2.5); 'accelerated_sweeps' wakes what is pushed to more
+        [m/s]"""
     @property
     def damping(self) -> float:
-        """part of gravity taken from slow bodies; 0 = off (Algorithm 12)"""
-    @property
-    def damping_threshold(self) -> float:
-        """bodies below this motion are damped [m/s]"""
+        """part of gravity taken from bodies slower than ten times sleep_threshold; 0 = off (Algorithm 12)"""
 
 class IntegrationSettings(_Record):
     """Motion of free bodies."""
 
-    def __init__(self, gyroscopic: bool = ..., exact_flight: bool = ...) -> None: ...
-    @property
-    def gyroscopic(self) -> bool:
-        """torque-free rotation keeps its angular momentum"""
+    def __init__(self, exact_flight: bool = ...) -> None: ...
     @property
     def exact_flight(self) -> bool:
         """smooth motion follows the mean of a step's velocities, so that free bodies keep to the parabola"""
@@ -1446,14 +1363,6 @@ class ParallelSettings(_Record):
     @property
     def threads(self) -> int:
         """threads of a step; results do not depend on it"""
-
-class LimitSettings(_Record):
-    """What a world refuses to grow beyond."""
-
-    def __init__(self, body_limit: int = ...) -> None: ...
-    @property
-    def body_limit(self) -> int:
-        """most bodies at one time; one more is refused"""
 
 class DiagnosticsSettings(_Record):
     """What a step measures besides."""
@@ -1473,10 +1382,8 @@ class Settings(_Record):
         correction: CorrectionSettings = ...,
         resolution: ResolutionSettings = ...,
         sleep: SleepSettings = ...,
-        gravity_damping: GravityDampingSettings = ...,
         integration: IntegrationSettings = ...,
         parallel: ParallelSettings = ...,
-        limits: LimitSettings = ...,
         diagnostics: DiagnosticsSettings = ...,
     ) -> None: ...
     @property
@@ -1493,19 +1400,13 @@ class Settings(_Record):
         """Contact resolution and shock propagation."""
     @property
     def sleep(self) -> SleepSettings:
-        """Sleeping."""
-    @property
-    def gravity_damping(self) -> GravityDampingSettings:
-        """Velocity-dependent gravity damping."""
+        """Sleeping and gravity damping."""
     @property
     def integration(self) -> IntegrationSettings:
         """Motion of free bodies."""
     @property
     def parallel(self) -> ParallelSettings:
         """Threads."""
-    @property
-    def limits(self) -> LimitSettings:
-        """What a world refuses to grow beyond."""
     @property
     def diagnostics(self) -> DiagnosticsSettings:
         """What a step measures besides."""

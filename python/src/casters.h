@@ -51,13 +51,9 @@ inline constexpr const char* enum_name<JointAlong> = "JointAlong";
 template <>
 inline constexpr const char* enum_name<Preset> = "Preset";
 template <>
-inline constexpr const char* enum_name<BroadPhaseKind> = "BroadPhaseKind";
-template <>
 inline constexpr const char* enum_name<CorrectionKind> = "CorrectionKind";
 template <>
 inline constexpr const char* enum_name<ResolutionKind> = "ResolutionKind";
-template <>
-inline constexpr const char* enum_name<ResolutionOrder> = "ResolutionOrder";
 template <>
 inline constexpr const char* enum_name<RestitutionLaw> = "RestitutionLaw";
 template <>

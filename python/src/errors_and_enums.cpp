@@ -44,12 +44,9 @@ void bindEnum(py::module_& module, std::initializer_list<const char*> names, con
 
 void bindEnumsOfSettings(py::module_& module) {
     bindEnum<Preset>(module, {"performance", "accuracy", "thesis", "thesis_accuracy"}, "Where all settings begin.");
-    bindEnum<BroadPhaseKind>(module, {"hash_grids", "all_pairs"}, "How candidates for contacts are found.");
     bindEnum<CorrectionKind>(module, {"propagated", "none", "position_sweeps"}, "Which penetration correction runs.");
-    bindEnum<ResolutionKind>(module, {"impulse_queue", "sweep", "accelerated_sweeps", "none"},
+    bindEnum<ResolutionKind>(module, {"impulse_queue", "arbitrary_order", "sweep", "accelerated_sweeps", "none"},
                              "How closing contacts are resolved.");
-    bindEnum<ResolutionOrder>(module, {"highest_closing_speed", "arbitrary"},
-                              "Which closing contact is resolved next.");
     bindEnum<RestitutionLaw>(module, {"newton", "energetic"},
                              "What the coefficient of restitution says: a ratio of speeds or of works.");
     bindEnum<RestitutionSpeed>(module, {"closing", "touching"},

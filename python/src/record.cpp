@@ -71,7 +71,10 @@ void fillRecord(const RecordFields& fields, void* record, const py::args& args, 
     for (const auto& [key, value] : kwargs) {
         const auto name = key.cast<std::string>();
         const auto i = static_cast<std::size_t>(std::ranges::find(fields.names, name) - fields.names.begin());
-        if (i == fields.names.size()) throw py::type_error(called + " has no field '" + name + "'");
+        if (i == fields.names.size()) {
+            if (fields.refuse) fields.refuse(name);
+            throw py::type_error(called + " has no field '" + name + "'");
+        }
         if (i < args.size()) throw py::type_error(called + " was given '" + name + "' twice");
         set(i, value);
     }

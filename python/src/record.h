@@ -18,7 +18,8 @@ struct RecordFields {
     const char* record;
     std::vector<std::string> names;
     std::vector<std::function<void(void* record, py::handle value)>> setters;
-    std::size_t required = 0;  ///< how many of the first have no default
+    std::size_t required = 0;                               ///< how many of the first have no default
+    std::function<void(const std::string& name)> refuse{};  ///< may throw better words for an unknown name
 };
 
 /// Sets the fields of a new record. @throws TypeError that names the field
@@ -74,6 +75,12 @@ class Record {
     template <class Member, class Base>
     Record& inherited(const char* name, Member Base::*member) {
         return settable(name, [member](Type& record, py::handle value) { record.*member = value.cast<Member>(); });
+    }
+
+    /// @param refuse is called with an unknown name, and may throw better words for it
+    Record& refusing(std::function<void(const std::string& name)> refuse) {
+        fields_->refuse = std::move(refuse);
+        return *this;
     }
 
     /// @param required how many of the first fields have no default

@@ -12,7 +12,10 @@ namespace {
 template <class Stage>
 class SettingRecord {
   public:
-    SettingRecord(py::module_& module, const char* name, const char* doc) : record_(module, name, doc) {}
+    SettingRecord(py::module_& module, const char* name, const char* doc) : record_(module, name, doc) {
+        // The library knows what is there instead of a field that is no more.
+        record_.refusing([](const std::string& field) { getField(Settings{}, field); });
+    }
 
     template <class Member>
     SettingRecord& field(const char* name, Member Stage::*member) {
@@ -33,32 +36,22 @@ class SettingRecord {
 void bindStages(py::module_& module) {
     using D = DetectionSettings;
     SettingRecord<D>(module, "DetectionSettings", "Broad and narrow phase.")
-        .field("broad_phase", &D::broad_phase)
         .field("contact_margin", &D::contact_margin)
-        .field("speculative_contacts", &D::speculative_contacts)
         .finish();
     using C = CorrectionSettings;
     SettingRecord<C>(module, "CorrectionSettings", "Penetration correction.")
         .field("correction", &C::correction)
         .field("penetration_threshold", &C::penetration_threshold)
         .field("allowed_overlap", &C::allowed_overlap)
-        .field("remaining_penetration", &C::remaining_penetration)
         .finish();
     using S = SleepSettings;
-    SettingRecord<S>(module, "SleepSettings", "Sleeping.")
+    SettingRecord<S>(module, "SleepSettings", "Sleeping and gravity damping.")
         .field("sleeping", &S::sleeping)
         .field("sleep_threshold", &S::sleep_threshold)
-        .field("motion_bias", &S::motion_bias)
-        .field("motion_limit", &S::motion_limit)
-        .finish();
-    using G = GravityDampingSettings;
-    SettingRecord<G>(module, "GravityDampingSettings", "Velocity-dependent gravity damping.")
-        .field("damping", &G::damping)
-        .field("damping_threshold", &G::damping_threshold)
+        .field("damping", &S::damping)
         .finish();
     using I = IntegrationSettings;
     SettingRecord<I>(module, "IntegrationSettings", "Motion of free bodies.")
-        .field("gyroscopic", &I::gyroscopic)
         .field("exact_flight", &I::exact_flight)
         .finish();
     using P = ParallelSettings;
@@ -68,32 +61,20 @@ void bindStages(py::module_& module) {
     SettingRecord<DiagnosticsSettings>(module, "DiagnosticsSettings", "What a step measures besides.")
         .field("diagnostics", &DiagnosticsSettings::diagnostics)
         .finish();
-    SettingRecord<LimitSettings>(module, "LimitSettings", "What a world refuses to grow beyond.")
-        .field("body_limit", &LimitSettings::body_limit)
-        .finish();
 }
 
 void bindResolution(py::module_& module) {
     using R = ResolutionSettings;
     SettingRecord<R>(module, "ResolutionSettings", "Contact resolution and shock propagation.")
         .field("resolution", &R::resolution)
-        .field("order", &R::order)
         .field("resolution_threshold", &R::resolution_threshold)
         .field("restitution_threshold", &R::restitution_threshold)
         .field("restitution_law", &R::restitution_law)
         .field("restitution_speed", &R::restitution_speed)
         .field("impacts", &R::impacts)
-        .field("global_iterations", &R::global_iterations)
-        .field("shock_propagation", &R::shock_propagation)
-        .field("shock_iterations", &R::shock_iterations)
-        .field("queue_switch", &R::queue_switch)
         .field("iterations", &R::iterations)
         .field("tolerance", &R::tolerance)
-        .field("sweep_tolerance", &R::sweep_tolerance)
-        .field("direct_limit", &R::direct_limit)
-        .field("direct_pairs", &R::direct_pairs)
-        .field("wake_speed", &R::wake_speed)
-        .field("sweeps", &R::sweeps)
+        .field("shock_propagation", &R::shock_propagation)
         .finish();
 }
 
@@ -133,11 +114,9 @@ void bindAllSettings(py::module_& module) {
         .field("detection", &Settings::detection, "Broad and narrow phase.")
         .field("correction", &Settings::correction, "Penetration correction.")
         .field("resolution", &Settings::resolution, "Contact resolution and shock propagation.")
-        .field("sleep", &Settings::sleep, "Sleeping.")
-        .field("gravity_damping", &Settings::gravity_damping, "Velocity-dependent gravity damping.")
+        .field("sleep", &Settings::sleep, "Sleeping and gravity damping.")
         .field("integration", &Settings::integration, "Motion of free bodies.")
         .field("parallel", &Settings::parallel, "Threads.")
-        .field("limits", &Settings::limits, "What a world refuses to grow beyond.")
         .field("diagnostics", &Settings::diagnostics, "What a step measures besides.");
     py::class_<Settings>& settings = record.finish();
     settings.def_property_readonly("time_step", &Settings::timeStep, "The length of a time step [s].")

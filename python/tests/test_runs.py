@@ -18,7 +18,7 @@ def pyramid(layers: int = 3) -> cairn.Scene:
                        default_pair=cairn.PairProperties(restitution=0), bodies=[floor, *boxes],
                        events=[cairn.SceneEvent(0.2, cairn.GiveImpulse(1, [1, 0, 0]))],
                        pairs={("oak", "oak"): cairn.PairProperties(0.1, 0.5, 0.4)},
-                       settings={"threads": 1, "shock_propagation": True, "order": "arbitrary"})
+                       settings={"threads": 1, "shock_propagation": True, "resolution": "arbitrary_order"})
 
 
 def test_a_scene_built_in_python_is_written_as_json_and_read_again(tmp_path: Path) -> None:

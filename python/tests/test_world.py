@@ -177,6 +177,12 @@ def test_settings_are_frozen_and_replaced() -> None:
         settings.replace(threads=0)
     with pytest.raises(cairn.InputError):
         settings.replace(speed="fast")
+    with pytest.raises(cairn.InputError, match="arbitrary_order"):
+        settings.replace(order="arbitrary")
+    with pytest.raises(cairn.InputError, match="arbitrary_order"):
+        cairn.ResolutionSettings(order="arbitrary")  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match="no field 'damping'"):
+        cairn.ResolutionSettings(damping=0.5)  # type: ignore[call-arg]
     world = cairn.World(changed)
     world.settings = world.settings.replace(threads=1)
     assert world.settings == changed.replace(threads=1)

@@ -24,7 +24,7 @@ struct SelectionInput {
     std::span<Contact> contacts;
     BodyState bodies;
     Selecting selecting;
-    double wake_speed;  ///< ResolutionSettings::wake_speed [m/s]
+    double wake_speed;  ///< what would move a sleeper faster wakes it [m/s]; 0 = batches wake as a whole
     const Executor& executor;
 };
 

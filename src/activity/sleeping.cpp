@@ -33,8 +33,13 @@ void wakeUnsupported(const BodyState& bodies, std::span<const std::int32_t> befo
     });
 }
 
+double motionBias(double time_step) {
+    return std::pow(0.9, 240 * time_step);
+}
+
 double initialMotion(const SleepSettings& settings) {
-    const double limit = settings.motion_limit * settings.sleep_threshold;
+    constexpr double multiple = 3;
+    const double limit = multiple * settings.sleep_threshold;
     return limit * limit;
 }
 
@@ -75,12 +80,13 @@ void fallAsleep(const BodyState& bodies, const MotionState& state, const SleepSe
                 const Executor& executor) {
     const double threshold = settings.sleep_threshold * settings.sleep_threshold;
     const double limit = initialMotion(settings);
+    const double bias = motionBias(time_step);
     executor.forBlocks(bodies.size(), [&](std::size_t begin, std::size_t end, int) {
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
             if (bodies.isFixed(i) || bodies.asleep[i] != 0) continue;
             const double squared = squaredMotion(bodies.v[i], bodies.w[i], state.r_max[i]);
             double& motion = state.motion[i];
-            motion = settings.motion_bias * motion + (1 - settings.motion_bias) * squared;
+            motion = bias * motion + (1 - bias) * squared;
             if (!(motion < threshold)) {
                 motion = std::min(motion, limit);
                 continue;

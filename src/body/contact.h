@@ -27,6 +27,8 @@ struct Contact {
     Vec3 impulse = Vec3::Zero();          ///< sum of what A received in this step [N·s, W]; B received the opposite
     Vec3 angular_impulse = Vec3::Zero();  ///< of rolling and spinning friction, likewise [N·m·s, W]
 
+    /// Whether the bodies overlap by more than the correction leaves alone (thr_pen). @source thesis §2
+    bool isTooDeep() const { return distance < -allowed_overlap; }
     /// Whether the bodies are apart and only may touch before the next detection.
     bool isForeseen() const { return allowed_closing > 0; }
 

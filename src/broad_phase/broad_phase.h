@@ -2,12 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "body/body_storage.h"
-#include "cairn/settings.h"
 #include "geometry/geometry.h"
 #include "parallel/executor.h"
 
@@ -42,7 +40,5 @@ class BroadPhase {
     /// Level of the hierarchy a body is in, for display; −1 for bodies outside it.
     virtual int level(BodyIndex body) const = 0;
 };
-
-std::unique_ptr<BroadPhase> makeBroadPhase(BroadPhaseKind kind);
 
 }  // namespace cairn

@@ -13,10 +13,10 @@ namespace {
 class NoCorrection final : public Correction {
   public:
     CorrectionCounts correct(const BatchView& batch, const ContactsOfBodies&, std::span<Contact> contacts,
-                             const BodyState&, const CorrectionSettings&) override {
+                             const BodyState&, double) override {
         CorrectionCounts counts;
         for (const std::uint32_t index : batch.contacts) {
-            if (contacts[index].distance < -contacts[index].allowed_overlap) ++counts.penetrating;
+            if (contacts[index].isTooDeep()) ++counts.penetrating;
         }
         counts.uncorrected = counts.penetrating;
         return counts;

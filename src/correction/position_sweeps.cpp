@@ -27,15 +27,14 @@ bool mayReceive(const BodyState& bodies, BodyIndex i) {
 }  // namespace
 
 CorrectionCounts PositionSweeps::correct(const BatchView& batch, const ContactsOfBodies&, std::span<Contact> contacts,
-                                         const BodyState& bodies, const CorrectionSettings& settings) {
+                                         const BodyState& bodies, double remaining) {
     CorrectionCounts counts;
-    counts.penetrating = std::ranges::count_if(batch.contacts, [&](std::uint32_t index) {
-        return contacts[index].distance < -contacts[index].allowed_overlap;
-    });
+    counts.penetrating =
+        std::ranges::count_if(batch.contacts, [&](std::uint32_t index) { return contacts[index].isTooDeep(); });
     if (counts.penetrating == 0) return counts;
     gather(batch, contacts, bodies);
     for (int i = 1; i <= most_sweeps; ++i) {
-        const double deepest = sweep(contacts, bodies, settings.remaining_penetration);
+        const double deepest = sweep(contacts, bodies, remaining);
         if (!(deepest > (i < usual_sweeps ? 1 : deep_multiple))) break;
     }
     for (Overlap& overlap : overlaps_) {

@@ -23,7 +23,7 @@ namespace cairn {
 class PositionSweeps final : public Correction {
   public:
     CorrectionCounts correct(const BatchView& batch, const ContactsOfBodies& contacts_of, std::span<Contact> contacts,
-                             const BodyState& bodies, const CorrectionSettings& settings) override;
+                             const BodyState& bodies, double remaining) override;
 
   private:
     static constexpr std::uint32_t no_levers = UINT32_MAX;

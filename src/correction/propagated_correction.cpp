@@ -9,11 +9,6 @@ namespace cairn {
 
 namespace {
 
-/// Whether a contact is deeper than allowed; its distance is compared with thr_pen. @source thesis §2
-bool penetrates(const Contact& contact) {
-    return contact.distance < -contact.allowed_overlap;
-}
-
 /// Moves the bodies of a search and wakes them. @return how many
 std::int64_t moveBodies(const Propagation& search, const BodyState& bodies) {
     for (const BodyIndex body : search.moved()) {
@@ -44,27 +39,26 @@ void updateContacts(const Propagation& search, const ContactsOfBodies& contacts_
 }  // namespace
 
 CorrectionCounts PropagatedCorrection::correct(const BatchView& batch, const ContactsOfBodies& contacts_of,
-                                               std::span<Contact> contacts, const BodyState& bodies,
-                                               const CorrectionSettings& settings) {
+                                               std::span<Contact> contacts, const BodyState& bodies, double remaining) {
     best_.reserve(bodies.size());
     trial_.reserve(bodies.size());
     penetrating_.clear();
     for (const std::uint32_t index : batch.contacts) {
-        if (penetrates(contacts[index])) penetrating_.push_back(index);
+        if (contacts[index].isTooDeep()) penetrating_.push_back(index);
     }
     CorrectionCounts counts;
     counts.penetrating = static_cast<std::int64_t>(penetrating_.size());
     if (counts.penetrating == 0) return counts;
-    graph_.reset(contacts_of, contacts, bodies, settings.remaining_penetration);
+    graph_.reset(contacts_of, contacts, bodies, remaining);
     for (const std::uint32_t index : penetrating_) {
         // The correction of another contact may have corrected this one.
-        if (!penetrates(contacts[index])) continue;
-        if (!choose(contacts[index], bodies, settings.remaining_penetration)) continue;
+        if (!contacts[index].isTooDeep()) continue;
+        if (!choose(contacts[index], bodies, remaining)) continue;
         counts.displaced += moveBodies(best_, bodies);
         updateContacts(best_, contacts_of, contacts, graph_);
     }
     counts.uncorrected =
-        std::ranges::count_if(penetrating_, [&](std::uint32_t index) { return penetrates(contacts[index]); });
+        std::ranges::count_if(penetrating_, [&](std::uint32_t index) { return contacts[index].isTooDeep(); });
     counts.corrected = counts.penetrating - counts.uncorrected;
     return counts;
 }

@@ -15,7 +15,7 @@ namespace cairn {
 class PropagatedCorrection final : public Correction {
   public:
     CorrectionCounts correct(const BatchView& batch, const ContactsOfBodies& contacts_of, std::span<Contact> contacts,
-                             const BodyState& bodies, const CorrectionSettings& settings) override;
+                             const BodyState& bodies, double remaining) override;
 
   private:
     /// Finds the best candidate of a contact and leaves it in best_. @param remaining part of what the contact is

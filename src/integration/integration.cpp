@@ -73,11 +73,11 @@ void rotateFreely(Quat& orientation, Vec3& w, const Vec3& inertia_B, double time
     w += angularVelocity(orientation, inertiaInv_B, lost);
 }
 
-void advancePosition(BodyStorage& bodies, BodyIndex i, const IntegrationSettings& settings, double time_step) {
+void advancePosition(BodyStorage& bodies, BodyIndex i, double time_step) {
     bodies.linear_step[i] = bodies.v[i] * time_step;
     bodies.position[i] += bodies.linear_step[i];
     if (bodies.w[i].isZero(0)) return;
-    if (isIsotropic(bodies.inertia_B[i]) || !settings.gyroscopic) {
+    if (isIsotropic(bodies.inertia_B[i])) {
         rotateUniformly(bodies.orientation[i], bodies.w[i], time_step);
     } else {
         rotateFreely(bodies.orientation[i], bodies.w[i], bodies.inertia_B[i], time_step);
@@ -87,14 +87,13 @@ void advancePosition(BodyStorage& bodies, BodyIndex i, const IntegrationSettings
     }
 }
 
-void advancePositions(BodyStorage& bodies, const IntegrationSettings& settings, double time_step,
-                      const Executor& executor) {
+void advancePositions(BodyStorage& bodies, double time_step, const Executor& executor) {
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
             if (bodies.kind[i] != BodyKind::dynamic || bodies.asleep[i] != 0) {
                 bodies.linear_step[i].setZero();
             } else {
-                advancePosition(bodies, i, settings, time_step);
+                advancePosition(bodies, i, time_step);
             }
         }
     });
@@ -125,16 +124,20 @@ double addInSteps(double velocity, double gain, std::int64_t step) {
     return velocity + (given(step % period + 1) - given(step % period));
 }
 
-Vec3 accelerationOf(const BodyStorage& bodies, BodyIndex i, const Vec3& acceleration,
-                    const GravityDampingSettings& settings) {
-    const double threshold = settings.damping_threshold * settings.damping_threshold;
-    const bool slow = squaredMotion(bodies.v[i], bodies.w[i], bodies.r_max[i]) < threshold;
+bool isDamped(double squared_motion, const SleepSettings& settings) {
+    constexpr double part = 0.1;
+    const double threshold = settings.sleep_threshold / part;
+    return squared_motion < threshold * threshold;
+}
+
+Vec3 accelerationOf(const BodyStorage& bodies, BodyIndex i, const Vec3& acceleration, const SleepSettings& settings) {
+    const bool slow = isDamped(squaredMotion(bodies.v[i], bodies.w[i], bodies.r_max[i]), settings);
     const Vec3 force = bodies.force[i] + bodies.constant_force[i];
     return bodies.gravity_factor[i] * ((slow ? 1 - settings.damping : 1) * acceleration) + force * bodies.mass_inv[i];
 }
 
-void advanceVelocities(BodyStorage& bodies, const Vec3& acceleration, const GravityDampingSettings& settings,
-                       double time_step, const Executor& executor, std::optional<std::int64_t> step) {
+void advanceVelocities(BodyStorage& bodies, const Vec3& acceleration, const SleepSettings& settings, double time_step,
+                       const Executor& executor, std::optional<std::int64_t> step) {
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             if (bodies.kind[i] == BodyKind::dynamic && bodies.asleep[i] == 0) {

@@ -23,12 +23,11 @@ void rotateFreely(Quat& orientation, Vec3& w, const Vec3& inertia_B, double time
 void rotateUniformly(Quat& orientation, const Vec3& w, double time);
 
 /// Moves one body by its velocities and notes ℓ. @pre dynamic and awake @param time_step [s]
-void advancePosition(BodyStorage& bodies, BodyIndex i, const IntegrationSettings& settings, double time_step);
+void advancePosition(BodyStorage& bodies, BodyIndex i, double time_step);
 
 /// Moves all awake dynamic bodies by their velocities and notes ℓ (linear_step); others get ℓ = 0.
 /// @param time_step [s]
-void advancePositions(BodyStorage& bodies, const IntegrationSettings& settings, double time_step,
-                      const Executor& executor);
+void advancePositions(BodyStorage& bodies, double time_step, const Executor& executor);
 
 /// Positions before a step, velocities before its forces acted, and how far those changed them. One entry per slot; the
 /// vectors keep their memory.
@@ -73,15 +72,18 @@ void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, s
 /// many of the steps, and down in the others, as leaves no more than a rounding of the whole. @param step its number
 double addInSteps(double velocity, double gain, std::int64_t step);
 
+/// Whether gravity damping takes hold of a body: below ten times the speed at which it sleeps. @source thesis §5.1
+/// (8.33 and 83.3 mm/s) @param squared_motion squaredMotion() of the body [m²/s²]
+bool isDamped(double squared_motion, const SleepSettings& settings);
+
 /// What the forces that are known change of a body's velocity per time [m/s², W].
 /// @param acceleration sum of the global accelerations [m/s², W]
-Vec3 accelerationOf(const BodyStorage& bodies, BodyIndex i, const Vec3& acceleration,
-                    const GravityDampingSettings& settings);
+Vec3 accelerationOf(const BodyStorage& bodies, BodyIndex i, const Vec3& acceleration, const SleepSettings& settings);
 
 /// Adds to the velocities of all awake dynamic bodies what the forces give in one step; slow bodies feel only a part of
 /// the global acceleration (Algorithm 12). Clears the one-step forces of all bodies.
 /// @param acceleration sum of the global accelerations [m/s², W] @param step its number, where addInSteps() is to add
-void advanceVelocities(BodyStorage& bodies, const Vec3& acceleration, const GravityDampingSettings& settings,
-                       double time_step, const Executor& executor, std::optional<std::int64_t> step = std::nullopt);
+void advanceVelocities(BodyStorage& bodies, const Vec3& acceleration, const SleepSettings& settings, double time_step,
+                       const Executor& executor, std::optional<std::int64_t> step = std::nullopt);
 
 }  // namespace cairn

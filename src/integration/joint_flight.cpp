@@ -107,7 +107,7 @@ void JointFlight::noteKicks(std::span<const Joint> joints, const JointGroups& gr
     };
     if (std::ranges::any_of(groups.jointsOf(group), isHeld)) return;
     for (std::uint32_t k = groups.body_begin[group]; k < groups.body_begin[group + 1]; ++k) {
-        const Vec3 acceleration = accelerationOf(bodies, groups.bodies[k], motion.acceleration, motion.gravity_damping);
+        const Vec3 acceleration = accelerationOf(bodies, groups.bodies[k], motion.acceleration, motion.sleep);
         start_[k].half_kick = 0.5 * motion.time_step * acceleration;
     }
 }
@@ -148,7 +148,7 @@ void JointFlight::finish(std::span<Joint> joints, const JointGroups& groups, Bod
         const std::span<const BodyIndex> of_group = groups.bodiesOf(g);
         fly({groups.jointsOf(g), of_group, std::span(start_).subspan(groups.body_begin[g], of_group.size()),
              std::span(blocks_).subspan(groups.joint_begin[g], groups.jointsOf(g).size()), motion.time_step},
-            joints, bodies, motion.integration);
+            joints, bodies);
     }
 }
 
@@ -160,8 +160,7 @@ void JointFlight::setMasses(const Flight& flight, const BodyStorage& bodies) {
     }
 }
 
-void JointFlight::fly(const Flight& flight, std::span<Joint> joints, BodyStorage& bodies,
-                      const IntegrationSettings& settings) {
+void JointFlight::fly(const Flight& flight, std::span<Joint> joints, BodyStorage& bodies) {
     setMasses(flight, bodies);
     system_.begin(flight.bodies, flight.blocks, JointSystem::Rows::rigid);
     system_.factorise(response_);
@@ -170,7 +169,7 @@ void JointFlight::fly(const Flight& flight, std::span<Joint> joints, BodyStorage
         velocity_[k] = flight.start[k].velocity;
         velocity_[k].v += flight.start[k].half_kick;
     }
-    moveAgain(flight, bodies, settings);
+    moveAgain(flight, bodies);
     collectErrors(flight.blocks, start_error_);
     if (!(largestOf(start_error_) > leftover)) std::fill(start_error_.begin(), start_error_.end(), 0.0);
     received_.assign(system_.rows(), 0);
@@ -191,9 +190,9 @@ void JointFlight::fly(const Flight& flight, std::span<Joint> joints, BodyStorage
         }
         const double beyond = keepBounds(flight);
         if (!(error > good_enough || beyond > good_enough)) break;
-        moveAgain(flight, bodies, settings);
+        moveAgain(flight, bodies);
     }
-    if (!(left <= large_error)) flyWithout(flight, bodies, settings);
+    if (!(left <= large_error)) flyWithout(flight, bodies);
     report(flight, bodies, joints);
     // The velocity stage gives the whole kick.
     for (std::size_t k = 0; k < flight.bodies.size(); ++k) bodies.v[flight.bodies[k]] -= flight.start[k].half_kick;
@@ -202,7 +201,7 @@ void JointFlight::fly(const Flight& flight, std::span<Joint> joints, BodyStorage
 
 /// Where no impulses lead to joints that hold (bodies that turn too far in one step), the velocities stay as they are
 /// and moveBack() does what it can.
-void JointFlight::flyWithout(const Flight& flight, BodyStorage& bodies, const IntegrationSettings& settings) {
+void JointFlight::flyWithout(const Flight& flight, BodyStorage& bodies) {
     for (std::size_t k = 0; k < velocity_.size(); ++k) {
         velocity_[k] = flight.start[k].velocity;
         velocity_[k].v += flight.start[k].half_kick;
@@ -211,7 +210,7 @@ void JointFlight::flyWithout(const Flight& flight, BodyStorage& bodies, const In
     for (JointBlock& block : flight.blocks) {
         for (BoundRow& bound : block.bound) bound.impulse = 0;
     }
-    moveAgain(flight, bodies, settings);
+    moveAgain(flight, bodies);
 }
 
 void JointFlight::report(const Flight& flight, const BodyStorage& bodies, std::span<Joint> joints) const {
@@ -219,7 +218,7 @@ void JointFlight::report(const Flight& flight, const BodyStorage& bodies, std::s
     for (const JointBlock& block : flight.blocks) reportImpulses(block, bodies, joints[block.joint]);
 }
 
-void JointFlight::moveAgain(const Flight& flight, BodyStorage& bodies, const IntegrationSettings& settings) const {
+void JointFlight::moveAgain(const Flight& flight, BodyStorage& bodies) const {
     for (std::size_t k = 0; k < flight.bodies.size(); ++k) {
         const BodyIndex i = flight.bodies[k];
         bodies.position[i] = flight.start[k].pose.position;
@@ -227,7 +226,7 @@ void JointFlight::moveAgain(const Flight& flight, BodyStorage& bodies, const Int
         bodies.v[i] = velocity_[k].v;
         bodies.w[i] = velocity_[k].w;
         bodies.inertiaInv_W[i] = response_[k].inertia_inv;
-        advancePosition(bodies, i, settings, flight.time_step);
+        advancePosition(bodies, i, flight.time_step);
     }
 }
 

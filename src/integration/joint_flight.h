@@ -27,7 +27,7 @@ class JointFlight {
     /// How the bodies of joints move in a step.
     struct Motion {
         IntegrationSettings integration;
-        GravityDampingSettings gravity_damping;
+        SleepSettings sleep;
         Vec3 acceleration;                    ///< sum of the global accelerations [m/s², W]
         double time_step;                     ///< [s]
         std::span<const Contact> contacts{};  ///< of the last step
@@ -58,10 +58,10 @@ class JointFlight {
     static bool isResting(const Contact& contact, const BodyStorage& bodies, const Motion& motion);
     void noteKicks(std::span<const Joint> joints, const JointGroups& groups, std::size_t group,
                    const BodyStorage& bodies, const Motion& motion);
-    void fly(const Flight& flight, std::span<Joint> joints, BodyStorage& bodies, const IntegrationSettings& settings);
-    void flyWithout(const Flight& flight, BodyStorage& bodies, const IntegrationSettings& settings);
+    void fly(const Flight& flight, std::span<Joint> joints, BodyStorage& bodies);
+    void flyWithout(const Flight& flight, BodyStorage& bodies);
     void report(const Flight& flight, const BodyStorage& bodies, std::span<Joint> joints) const;
-    void moveAgain(const Flight& flight, BodyStorage& bodies, const IntegrationSettings& settings) const;
+    void moveAgain(const Flight& flight, BodyStorage& bodies) const;
     double keepBounds(const Flight& flight);
     void addResponse(double impulse);
     void moveBack(const Flight& flight, std::span<const Joint> joints, BodyStorage& bodies);

@@ -13,7 +13,7 @@ namespace {
 
 /// Resolutions of impacts one after the other, as a multiple of the contacts; elastic chains need many.
 constexpr double sequential_limit = 1000;
-constexpr std::int64_t simultaneous_sweeps = 1000;
+constexpr double simultaneous_sweeps = 1000;
 
 /// Which rule the settings ask for. Energetic restitution is a law of single impacts.
 Impacts wantedOf(const ResolutionSettings& settings, Impacts own) {
@@ -58,12 +58,12 @@ class ImpactsFirst final : public BatchResolution {
         if (wanted == Impacts::sequential) {
             if (!sequential_) sequential_ = makeImpulseQueueResolution();
             impacts.resolution_threshold = std::max(settings.resolution_threshold, settings.restitution_threshold);
-            impacts.global_iterations = sequential_limit;
+            impacts.iterations = sequential_limit;
             impacts.shock_propagation = false;
             return sequential_->resolve(batch, contacts, bodies, impacts, executor);
         }
         if (!simultaneous_) simultaneous_ = makeSweepsOfOne();
-        impacts.iterations = std::max(settings.iterations, simultaneous_sweeps);
+        if (settings.iterations > 0) impacts.iterations = std::max(settings.iterations, simultaneous_sweeps);
         impacts.tolerance = 0;
         return simultaneous_->resolve(batch, contacts, bodies, impacts, executor);
     }

@@ -39,10 +39,8 @@ void QueueSolver::begin(const BatchView& view, std::span<const Contact> contacts
 
 RunOutcome QueueSolver::run(std::span<const std::uint32_t> members, double iterations_per_contact) {
     const std::int64_t limit = iterationLimit(iterations_per_contact, members.size());
-    if (settings_.order == ResolutionOrder::arbitrary) return runWith(latest_first_queue_, members, limit);
-    if (static_cast<std::int64_t>(members.size()) > settings_.queue_switch) {
-        return runWith(tournament_queue_, members, limit);
-    }
+    if (settings_.resolution == ResolutionKind::arbitrary_order) return runWith(latest_first_queue_, members, limit);
+    if (members.size() > queue_switch_) return runWith(tournament_queue_, members, limit);
     return runWith(array_queue_, members, limit);
 }
 
@@ -168,6 +166,9 @@ namespace {
 /// Algorithm 9 for the whole batch, then Algorithm 10 if that was not enough.
 class ImpulseQueueResolution final : public BatchResolution {
   public:
+    explicit ImpulseQueueResolution(const QueueConstants& constants)
+        : constants_(constants), solver_(constants.queue_switch) {}
+
     ResolutionCounts resolve(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
                              const ResolutionSettings& settings, const Executor&) override {
         ResolutionCounts counts;
@@ -177,7 +178,7 @@ class ImpulseQueueResolution final : public BatchResolution {
         const RunOutcome outcome = runAll(settings, counts);
         if (outcome.still_closing && settings.shock_propagation) {
             solver_.batch.note(before_shock_);
-            const ShockOutcome shock = shock_propagation_.run(solver_, settings.shock_iterations);
+            const ShockOutcome shock = shock_propagation_.run(solver_, constants_.shock_iterations);
             counts.shock_iterations = shock.iterations;
             counts.shock_batches = shock.stages > 0 ? 1 : 0;
             if (shock.stages > 0 && hasStillSupports(batch, contacts, bodies)) boundEnergy(bodies);
@@ -192,7 +193,7 @@ class ImpulseQueueResolution final : public BatchResolution {
         LocalBatch& batch = solver_.batch;
         batch.joints.resolveBounds(batch.bodies, settings.resolution_threshold);
         for (int round = 1;; ++round) {
-            const RunOutcome outcome = solver_.run(all_, settings.global_iterations);
+            const RunOutcome outcome = solver_.run(all_, settings.iterations);
             counts.global_iterations += outcome.iterations;
             if (outcome.still_closing || round == most_rounds) return outcome;
             if (!batch.joints.resolveBounds(batch.bodies, settings.resolution_threshold)) return outcome;
@@ -223,6 +224,7 @@ class ImpulseQueueResolution final : public BatchResolution {
 
     static constexpr int most_rounds = 20;
 
+    QueueConstants constants_;
     QueueSolver solver_;
     ShockPropagation shock_propagation_;
     std::vector<std::uint32_t> all_;
@@ -231,8 +233,8 @@ class ImpulseQueueResolution final : public BatchResolution {
 
 }  // namespace
 
-std::unique_ptr<BatchResolution> makeImpulseQueueResolution() {
-    return std::make_unique<ImpulseQueueResolution>();
+std::unique_ptr<BatchResolution> makeImpulseQueueResolution(const QueueConstants& constants) {
+    return std::make_unique<ImpulseQueueResolution>(constants);
 }
 
 }  // namespace cairn

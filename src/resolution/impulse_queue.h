@@ -32,6 +32,8 @@ struct RunOutcome {
 /// One batch under resolution. Shock propagation runs on the same object, with masses changed in `batch`.
 class QueueSolver {
   public:
+    /// @param queue_switch QueueConstants::queue_switch
+    explicit QueueSolver(std::size_t queue_switch) : queue_switch_(queue_switch) {}
     /// Initialises all contacts (lines 2–4 of Algorithm 9).
     void begin(const BatchView& view, std::span<const Contact> contacts, const BodyState& bodies,
                const ResolutionSettings& settings);
@@ -57,6 +59,7 @@ class QueueSolver {
     template <class Queue>
     std::int64_t resolve(Queue& queue, std::uint32_t contact);
 
+    std::size_t queue_switch_;
     ResolutionSettings settings_;
     ContactLaw law_;
     double threshold_ = 0;  ///< thr_res < 0 [m/s] (3.4.3)

@@ -10,13 +10,13 @@
 /// The smallest δ wins; of equal ones the lower index, which makes ArrayQueue and TournamentQueue give the same order,
 /// bit for bit.
 ///
-/// The switch point (ResolutionSettings::queue_switch): ns per resolution with ArrayQueue / TournamentQueue, one thread
+/// The switch point (QueueConstants::queue_switch): ns per resolution with ArrayQueue / TournamentQueue, one thread
 /// of an AMD EPYC, g++ 12, lattices of balls (about ten contacts a body) and of boxes (twenty-four), six resolutions
 /// per contact:
 ///   contacts  20       64       90–96     150–160   340       1250      2400
 ///   balls     85/89    105/108  112/108   129/111   260/151   449/197   832/221
 ///   boxes     82/83    126/121  141/122   165/125   323/145   624/184   909/187
-/// Both cost the same up to about 64, the default; from there on the linear search grows with the contacts. Measured
+/// Both cost the same up to about 64; from there on the linear search grows with the contacts. Measured
 /// before frames were built when first needed and both queues became cheaper.
 #pragma once
 

@@ -18,6 +18,7 @@ class NoResolution final : public Resolution {
 std::unique_ptr<Resolution> makeResolution(ResolutionKind kind) {
     switch (kind) {
         case ResolutionKind::impulse_queue:
+        case ResolutionKind::arbitrary_order:
             return makePerBatch([] { return makeImpactsFirst(makeImpulseQueueResolution(), Impacts::sequential); });
         case ResolutionKind::sweep:
             return makePerBatch([] { return makeImpactsFirst(makeSweepResolution(), Impacts::sequential); });

@@ -1,6 +1,7 @@
 /// @file Contact resolution: what every algorithm for it sees and gives. @source thesis §3.3–3.8
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -43,6 +44,12 @@ class Resolution {
     /// impulses. The same on any number of threads.
     virtual ResolutionCounts resolve(const ResolutionInput& input) = 0;
 };
+
+/// Most sweeps over a batch, for the algorithms that sweep.
+inline std::int64_t sweepLimit(const ResolutionSettings& settings) {
+    constexpr std::int64_t no_limit = 1'000'000;
+    return settings.iterations > 0 ? static_cast<std::int64_t>(std::ceil(settings.iterations)) : no_limit;
+}
 
 std::unique_ptr<Resolution> makeResolution(ResolutionKind kind);
 

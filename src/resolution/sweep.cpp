@@ -19,7 +19,8 @@ class SweepResolution final : public BatchResolution {
         local_.gather(batch, contacts, bodies);
         law_.begin(batch, contacts, settings);
         ResolutionCounts counts;
-        for (std::int64_t sweep = 0; sweep < settings.sweeps; ++sweep) {
+        const std::int64_t limit = sweepLimit(settings);
+        for (std::int64_t sweep = 0; sweep < limit; ++sweep) {
             const bool bounds_changed = local_.joints.resolveBounds(local_.bodies, settings.resolution_threshold);
             const std::int64_t resolved = sweepOnce(settings);
             counts.global_iterations += resolved;

@@ -141,7 +141,7 @@ Scene swingingCradleScene(std::string name, int balls, int moving) {
                       {"correction", std::string("none")},
                       {"restitution_threshold", 1e-9},
                       {"resolution_threshold", 1e-10},
-                      {"global_iterations", 0.0},
+                      {"iterations", 0.0},
                       {"sleeping", false},
                       {"damping", 0.0}};
     return scene;

@@ -77,7 +77,7 @@ void accountForces(WorldState& world, double change) {
     const BodyStorage& b = world.bodies;
     const MeasuredData& data = world.data.measured;
     Diagnostics& d = world.statistics.diagnostics;
-    const GravityDampingSettings& damping = world.settings.gravity_damping;
+    const SleepSettings& sleep = world.settings.sleep;
     const Vec3 step = accelerationOf(world) * world.settings.timeStep();
     double gravity = 0;
     double damped = 0;
@@ -88,9 +88,7 @@ void accountForces(WorldState& world, double change) {
         const double work = b.gravity_factor[i] * b.mass[i] * step.dot(0.5 * (data.v[i] + b.v[i]));
         gravity += work;
         driven += b.mass[i] * frame_step.dot(0.5 * (data.v[i] + b.v[i]));
-        const bool slow =
-            squaredMotion(data.v[i], data.w[i], b.r_max[i]) < damping.damping_threshold * damping.damping_threshold;
-        if (slow) damped -= damping.damping * work;
+        if (isDamped(squaredMotion(data.v[i], data.w[i], b.r_max[i]), sleep)) damped -= sleep.damping * work;
     }
     d.energy_flight += gravity;
     d.energy_damping += damped;

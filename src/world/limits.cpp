@@ -8,6 +8,11 @@
 
 namespace cairn {
 
+void requireRoom(std::size_t bodies) {
+    if (bodies < most_bodies) return;
+    throw InputError(fmt::format("a body too many: a world holds at most {}; remove bodies first", most_bodies));
+}
+
 void requireGravityFactor(double factor) {
     if (std::abs(factor) <= gravity_factor_limit) return;
     throw InputError(fmt::format("gravity_factor is {}; it must be within ±{}", factor, gravity_factor_limit));

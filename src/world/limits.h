@@ -1,5 +1,7 @@
-/// @file What the members of a body's description may be.
+/// @file What a world takes: how many bodies, and what the members of their descriptions may be.
 #pragma once
+
+#include <cstddef>
 
 #include <string_view>
 
@@ -10,6 +12,11 @@ inline constexpr double gravity_factor_limit = 1e3;
 /// Highest rate at which velocities may decay [1/s].
 inline constexpr double damping_limit = 1e6;
 
+/// Most bodies of a world: at about 4 kB each, beyond the memory of most machines; their numbers have 32 bits.
+inline constexpr std::size_t most_bodies = 100'000'000;
+
+/// @param bodies that there are @throws InputError if there may not be one more
+void requireRoom(std::size_t bodies);
 /// @throws InputError beyond the limit
 void requireGravityFactor(double factor);
 /// @param what "linear" or "angular", for the message @throws InputError below 0 or beyond the limit

@@ -18,10 +18,9 @@ constexpr double above_zero = std::numeric_limits<double>::min();
 /// Far above any use; a body falls beyond the limit of speeds at once [m/s²].
 constexpr double gravity_limit = 1e12;
 
-constexpr std::array<std::string_view, 2> broad_phase_names = {"hash_grids", "all_pairs"};
 constexpr std::array<std::string_view, 3> correction_names = {"propagated", "none", "position_sweeps"};
-constexpr std::array<std::string_view, 4> resolution_names = {"impulse_queue", "sweep", "accelerated_sweeps", "none"};
-constexpr std::array<std::string_view, 2> order_names = {"highest_closing_speed", "arbitrary"};
+constexpr std::array<std::string_view, 5> resolution_names = {"impulse_queue", "arbitrary_order", "sweep",
+                                                              "accelerated_sweeps", "none"};
 constexpr std::array<std::string_view, 2> restitution_law_names = {"newton", "energetic"};
 constexpr std::array<std::string_view, 2> restitution_speed_names = {"closing", "touching"};
 constexpr std::array<std::string_view, 3> impacts_names = {"of_resolution", "sequential", "simultaneous"};
@@ -86,19 +85,14 @@ const std::vector<SettingField>& settingTable() {
     using C = CorrectionSettings;
     using R = ResolutionSettings;
     using L = SleepSettings;
-    using G = GravityDampingSettings;
     using I = IntegrationSettings;
     using P = ParallelSettings;
     static const std::vector<SettingField> all = {
         stepsPerSecond(),
-        choice<&S::detection, &D::broad_phase, broad_phase_names>("broad_phase", "detection",
-                                                                  "how pairs of near bodies are found"),
         plain<&S::detection, &D::contact_margin>(
             "contact_margin", "detection", "m", 0, 1,
             "contacts are reported up to this distance before touching; 0 without penetration_threshold = a "
             "sixteenth of the overlap allowed"),
-        plain<&S::detection, &D::speculative_contacts>("speculative_contacts", "detection", "", 0, 1,
-                                                       "finds contacts of bodies that would meet within the step, too"),
         choice<&S::correction, &C::correction, correction_names>("correction", "correction",
                                                                  "algorithm of the penetration correction"),
         plain<&S::correction, &C::penetration_threshold>(
@@ -107,11 +101,8 @@ const std::vector<SettingField>& settingTable() {
         plain<&S::correction, &C::allowed_overlap>(
             "allowed_overlap", "correction", "", 1e-6, 0.1,
             "the same as part of the smaller body's smallest extent, where penetration_threshold is 0"),
-        plain<&S::correction, &C::remaining_penetration>("remaining_penetration", "correction", "", 0.001, 0.999,
-                                                         "part of the threshold that a correction leaves (2.5.4)"),
         choice<&S::resolution, &R::resolution, resolution_names>("resolution", "resolution",
                                                                  "algorithm of the contact resolution"),
-        choice<&S::resolution, &R::order, order_names>("order", "resolution", "which closing contact is resolved next"),
         plain<&S::resolution, &R::resolution_threshold>("resolution_threshold", "resolution", "m/s", above_zero, 1e3,
                                                         "closing speed above which a contact is resolved (3.4.3)"),
         plain<&S::resolution, &R::restitution_threshold>("restitution_threshold", "resolution", "m/s", 0, 1e3,
@@ -124,74 +115,69 @@ const std::vector<SettingField>& settingTable() {
             "restitution takes the closing speed with the step's forces (the thesis) or that at the touching"),
         choice<&S::resolution, &R::impacts, impacts_names>(
             "impacts", "resolution", "impacts in touching chains: as the resolution does, in sequence or all at once"),
-        plain<&S::resolution, &R::global_iterations>(
-            "global_iterations", "resolution", "", 0, 1e6,
-            "limit of resolutions as a multiple of the batch's contacts; 0 = unlimited"),
-        plain<&S::resolution, &R::shock_propagation>("shock_propagation", "resolution", "", 0, 1,
-                                                     "shock propagation when the limit was reached (Algorithm 10)"),
-        plain<&S::resolution, &R::shock_iterations>(
-            "shock_iterations", "resolution", "", 0, 1e6,
-            "limit of each shock stage as a multiple of its contacts; 0 = unlimited"),
-        plain<&S::resolution, &R::queue_switch>("queue_switch", "resolution", "contacts", 0, 1e9,
-                                                "batches with more contacts use the ordered queue (3.8)"),
-        plain<&S::resolution, &R::iterations>("iterations", "resolution", "", 1, 1e6,
-                                              "most sweeps, forth and back, of 'accelerated_sweeps' over a batch"),
-        plain<&S::resolution, &R::tolerance>(
-            "tolerance", "resolution", "", 0, 1,
-            "a batch is swept until about so much is left to change, as a part of how its contacts move"),
-        plain<&S::resolution, &R::sweep_tolerance>(
-            "sweep_tolerance", "resolution", "m/s", 0, 1e3,
-            "no more sweeps of 'accelerated_sweeps' once one changes no contact's velocity by more"),
-        plain<&S::resolution, &R::direct_limit>(
-            "direct_limit", "resolution", "bodies", 0, 1e6,
-            "batches at rest of up to so many bodies are solved directly where sweeps are not enough; 0 = none"),
-        plain<&S::resolution, &R::direct_pairs>(
-            "direct_pairs", "resolution", "per body", 0, 1e6,
-            "and only where at most so many pairs of its bodies touch, as in stacks and chains; 0 = any"),
-        plain<&S::resolution, &R::wake_speed>(
-            "wake_speed", "resolution", "m/s", 0, 1e3,
-            "'accelerated_sweeps' lets bodies sleep until their contacts' push changes by so much; 0 = not"),
-        plain<&S::resolution, &R::sweeps>("sweeps", "resolution", "", 1, 1e6,
-                                          "sweeps over the contacts of the resolution 'sweep'"),
+        plain<&S::resolution, &R::iterations>("iterations", "resolution", "", 0, 1e6,
+                                              "most resolutions per contact of 'impulse_queue' and 'arbitrary_order', "
+                                              "or sweeps over a batch of the others; 0 = no limit"),
+        plain<&S::resolution, &R::tolerance>("tolerance", "resolution", "", 0, 1,
+                                             "'accelerated_sweeps' goes on until about so much is left to change, as a "
+                                             "part of how a batch's contacts move"),
+        plain<&S::resolution, &R::shock_propagation>(
+            "shock_propagation", "resolution", "", 0, 1,
+            "shock propagation of 'impulse_queue' when iterations were not enough (Algorithm 10)"),
         plain<&S::sleep, &L::sleeping>("sleeping", "sleep", "", 0, 1, "bodies at rest fall asleep"),
         plain<&S::sleep, &L::sleep_threshold>("sleep_threshold", "sleep", "m/s", 0, 1e3,
-                                              "a body whose averaged motion is below this sleeps (3.2.5)"),
-        plain<&S::sleep, &L::motion_bias>("motion_bias", "sleep", "", 0, 0.999999,
-                                          "weight of the history in the averaged motion (3.2.4)"),
-        plain<&S::sleep, &L::motion_limit>("motion_limit", "sleep", "", 1, 1e6,
-                                           "the averaged motion is capped at this multiple of sleep_threshold"),
-        plain<&S::gravity_damping, &G::damping>("damping", "gravity_damping", "", 0, 0.99,
-                                                "part of gravity taken from slow bodies; 0 = off (Algorithm 12)"),
-        plain<&S::gravity_damping, &G::damping_threshold>("damping_threshold", "gravity_damping", "m/s", 0, 1e3,
-                                                          "bodies below this motion are damped"),
-        plain<&S::integration, &I::gyroscopic>("gyroscopic", "integration", "", 0, 1,
-                                               "torque-free rotation keeps its angular momentum"),
+                                              "a body whose averaged motion is below this sleeps (3.2.5); "
+                                              "'accelerated_sweeps' wakes what is pushed to more"),
+        plain<&S::sleep, &L::damping>(
+            "damping", "sleep", "", 0, 0.99,
+            "part of gravity taken from bodies slower than ten times sleep_threshold; 0 = off (Algorithm 12)"),
         plain<&S::integration, &I::exact_flight>(
             "exact_flight", "integration", "", 0, 1,
             "smooth motion follows the mean of a step's velocities, so that free bodies keep to the parabola"),
         plain<&S::parallel, &P::threads>("threads", "parallel", "", 1, 1024,
                                          "threads of a step; results do not depend on it"),
-        plain<&S::limits, &LimitSettings::body_limit>("body_limit", "limits", "", 1, 1e9,
-                                                      "most bodies at one time; one more is refused"),
         plain<&S::diagnostics, &DiagnosticsSettings::diagnostics>(
             "diagnostics", "diagnostics", "", 0, 1, "every step measures momentum, energy accounts and residuals"),
     };
     return all;
 }
 
-/// Fields that have another name now.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> renamed_fields = {
-    std::pair("sweep_limit", "iterations"),     std::pair("moving_sweep_limit", "tolerance"),
-    std::pair("moving_tolerance", "tolerance"), std::pair("small_sweep_part", "tolerance"),
-    std::pair("sliding_part", "tolerance"),     std::pair("visit_limit", "tolerance"),
-    std::pair("spread_levels", "correction"),   std::pair("correction_rounds", "correction")};
+/// Fields that are no more, and what is there instead.
+constexpr auto former_fields = std::to_array<std::pair<std::string_view, std::string_view>>({
+    {"sweep_limit", "use 'iterations'"},
+    {"moving_sweep_limit", "use 'tolerance'"},
+    {"moving_tolerance", "use 'tolerance'"},
+    {"small_sweep_part", "use 'tolerance'"},
+    {"sliding_part", "use 'tolerance'"},
+    {"visit_limit", "use 'tolerance'"},
+    {"spread_levels", "use 'correction'"},
+    {"correction_rounds", "use 'correction'"},
+    {"broad_phase", "leave it out: it is always hash_grids"},
+    {"speculative_contacts",
+     "contacts are foreseen exactly where 'resolution' is accelerated_sweeps and 'restitution_speed' is closing"},
+    {"remaining_penetration", "a correction leaves 0.7 of 'penetration_threshold' or 'allowed_overlap': set these"},
+    {"order", "set 'resolution' to impulse_queue (the fastest first) or arbitrary_order"},
+    {"global_iterations", "use 'iterations'"},
+    {"sweeps", "use 'iterations'"},
+    {"shock_iterations", "leave it out: it is 6 per contact; 'shock_propagation' switches the whole"},
+    {"queue_switch", "leave it out: it never changed a result"},
+    {"sweep_tolerance", "it is a hundredth of 'resolution_threshold': set that"},
+    {"direct_limit", "leave it out: stacks and chains at rest are solved directly"},
+    {"direct_pairs", "leave it out: stacks and chains at rest are solved directly"},
+    {"wake_speed", "it is 'sleep_threshold': set that"},
+    {"motion_bias", "it is 0.9 in 1/240 s and follows from 'steps_per_second'"},
+    {"motion_limit", "leave it out: it is 3"},
+    {"damping_threshold", "it is ten times 'sleep_threshold': set that, or 'damping' to 0 for none"},
+    {"gyroscopic", "leave it out: free bodies always keep their angular momentum"},
+    {"body_limit", "leave it out: a world refuses more bodies than it can number"},
+});
 
 const SettingField& findField(std::string_view name) {
     for (const SettingField& field : settingTable()) {
         if (field.name == name) return field;
     }
-    for (const auto& [before, now] : renamed_fields) {
-        if (name == before) throw InputError(fmt::format("there is no setting '{}' any more; use '{}'", name, now));
+    for (const auto& [former, instead] : former_fields) {
+        if (name == former) throw InputError(fmt::format("there is no setting '{}' any more; {}", name, instead));
     }
     std::vector<std::string_view> names;
     for (const SettingField& field : settingTable()) names.push_back(field.name);
@@ -259,12 +245,12 @@ void requireTogether(const Settings& s, double gravity) {
             "sleeping to false",
             s.sleep.sleep_threshold, speed));
     }
-    const double damped = std::sqrt(2.0) * (1 - s.gravity_damping.damping) * speed;
-    if (s.gravity_damping.damping_threshold > 0 && s.sleep.sleep_threshold >= damped) {
+    const double damped = std::sqrt(2.0) * (1 - s.sleep.damping) * speed;
+    if (s.sleep.sleep_threshold >= damped) {
         throw InputError(fmt::format(
             "with damping {} a released body gains a motion of only {} m/s in one time step and would fall asleep in "
             "the air: sleep_threshold {} m/s must be lower; lower it or damping",
-            s.gravity_damping.damping, damped, s.sleep.sleep_threshold));
+            s.sleep.damping, damped, s.sleep.sleep_threshold));
     }
 }
 

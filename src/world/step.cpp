@@ -46,8 +46,9 @@ WarmStart warmStart(const WorldState& world) {
 DetectionRange rangeOf(const WorldState& world) {
     const Settings& s = world.settings;
     DetectionRange range{s.detection.contact_margin, s.correction.penetration_threshold, s.correction.allowed_overlap};
-    const bool foresees = s.detection.speculative_contacts &&
-                          s.resolution.resolution == ResolutionKind::accelerated_sweeps &&
+    // Sweeps let bodies come just so close that they touch, rather than fly into or through each other. What a call
+    // moved or added is looked ahead for from its second step on.
+    const bool foresees = s.resolution.resolution == ResolutionKind::accelerated_sweeps &&
                           s.resolution.restitution_speed == RestitutionSpeed::closing;
     if (foresees) range.foresight = {s.timeStep(), s.timeStep() * (world.gravity + world.global_acceleration)};
     return range;
@@ -56,7 +57,7 @@ DetectionRange rangeOf(const WorldState& world) {
 void detect(WorldState& world) {
     const DetectionRange range = rangeOf(world);
     world.data.pairs.detect(
-        {world.bodies, world.materials, *world.broad_phase, world.data.excluded, range, world.executor},
+        {world.bodies, world.materials, world.broad_phase, world.data.excluded, range, world.executor},
         world.data.contacts);
 }
 
@@ -79,7 +80,7 @@ void correctBatches(WorldState& world) {
     data.schedule.forEach(world.executor, [&](std::uint32_t batch, int thread) {
         const auto t = static_cast<std::size_t>(thread);
         const CorrectionCounts counts = world.corrections[t]->correct(data.views[batch], data.contacts_of,
-                                                                      data.contacts, bodies, world.settings.correction);
+                                                                      data.contacts, bodies, remaining_penetration);
         data.correction_counts[t].penetrating += counts.penetrating;
         data.correction_counts[t].corrected += counts.corrected;
         data.correction_counts[t].uncorrected += counts.uncorrected;
@@ -120,8 +121,8 @@ void velocityStage(WorldState& world) {
     const bool exact = world.settings.integration.exact_flight;
     const bool touching = world.settings.resolution.restitution_speed == RestitutionSpeed::touching;
     if (exact || touching) noteVelocities(world.bodies, world.executor, data.before);
-    advanceVelocities(world.bodies, acceleration, world.settings.gravity_damping, world.settings.timeStep(),
-                      world.executor, exact ? std::optional(world.steps) : std::nullopt);
+    advanceVelocities(world.bodies, acceleration, world.settings.sleep, world.settings.timeStep(), world.executor,
+                      exact ? std::optional(world.steps) : std::nullopt);
     applySprings(world.springs, world.bodies, world.settings.timeStep());
     measureIfAsked(world, Measured::forces);
     dampVelocities(world.bodies, world.settings.timeStep(), world.executor);
@@ -150,7 +151,9 @@ void resolveChosen(WorldState& world, BodyState& bodies) {
     StepData& data = world.data;
     const ResolutionSettings& settings = world.settings.resolution;
     data.resolution_counts = {};
-    data.selection.begin({data.views, data.contacts, bodies, selectingOf(world), settings.wake_speed, world.executor});
+    // What would keep a body from falling asleep wakes it.
+    data.selection.begin(
+        {data.views, data.contacts, bodies, selectingOf(world), world.settings.sleep.sleep_threshold, world.executor});
     bodies.held = data.selection.held();
     do {
         data.resolution_counts.add(
@@ -168,8 +171,8 @@ void resolveStage(WorldState& world) {
     }
     bodies.time_step = world.settings.timeStep();
     bodies.surface = data.surface;
-    const GravityDampingSettings& damping = world.settings.gravity_damping;
-    bodies.fall = (damping.damping_threshold > 0 ? 1 - damping.damping : 1.0) * world.settings.timeStep() *
+    const SleepSettings& sleep = world.settings.sleep;
+    bodies.fall = (isDamped(0, sleep) ? 1 - sleep.damping : 1.0) * world.settings.timeStep() *
                   (world.gravity + world.global_acceleration);
     applyPairLaws(world, bodies);
     buildJointBlocks(world);
@@ -243,12 +246,12 @@ void stepWorld(WorldState& world) {
     measureIfAsked(world, Measured::laws);
     timed(world, Stage::positions, [&] {
         if (world.settings.integration.exact_flight) notePositions(world.bodies, world.executor, world.data.before);
-        const JointFlight::Motion motion{world.settings.integration, world.settings.gravity_damping,
+        const JointFlight::Motion motion{world.settings.integration, world.settings.sleep,
                                          world.gravity + world.global_acceleration, world.settings.timeStep(),
                                          world.data.contacts};
         world.joint_flight.begin(world.joints, world.data.joint_groups, world.bodies, motion);
         moveByLaw(world);
-        advancePositions(world.bodies, world.settings.integration, world.settings.timeStep(), world.executor);
+        advancePositions(world.bodies, world.settings.timeStep(), world.executor);
         world.joint_flight.finish(world.joints, world.data.joint_groups, world.bodies, motion);
     });
     measureIfAsked(world, Measured::positions);

@@ -16,9 +16,6 @@ WorldState::WorldState(const Settings& initial) {
 
 void WorldState::applySettings(const Settings& s) {
     const auto threads = static_cast<std::size_t>(s.parallel.threads);
-    if (broad_phase == nullptr || s.detection.broad_phase != settings.detection.broad_phase) {
-        broad_phase = makeBroadPhase(s.detection.broad_phase);
-    }
     if (corrections.size() != threads || s.correction.correction != settings.correction.correction) {
         corrections.clear();
         for (std::size_t t = 0; t < threads; ++t) corrections.push_back(makeCorrection(s.correction.correction));

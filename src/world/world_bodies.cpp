@@ -141,11 +141,7 @@ BodyId World::addBody(const BodyDescription& d) {
     const std::uint8_t locked = lockMaskOf(d.locked);
     if (locked != 0 && d.fixed) throw InputError("a fixed body moves along no axis; leave locked out");
     auto curve = d.motion ? std::make_shared<const MotionCurve>(*d.motion) : nullptr;
-    if (b.count() >= static_cast<std::size_t>(w.settings.limits.body_limit)) {
-        throw InputError(
-            fmt::format("a body too many: the setting body_limit allows {}; raise it or remove bodies first",
-                        w.settings.limits.body_limit));
-    }
+    requireRoom(b.count());
     w.lasting.reset();
     ++w.places_version;
     const BodyIndex i = b.allocate(d.fixed ? BodyKind::fixed : BodyKind::dynamic);

@@ -141,7 +141,7 @@ BodyTrace World::trace(BodyId id) const {
     if (i < data.pairs.bounds().size()) {
         trace.bounds_lower = data.pairs.bounds()[i].lower;
         trace.bounds_upper = data.pairs.bounds()[i].upper;
-        trace.level = state_->broad_phase->level(i);
+        trace.level = state_->broad_phase.level(i);
     }
     if (i < state_->trace.correction.size()) trace.correction = state_->trace.correction[i];
     if (i < state_->trace.shock_stage.size()) trace.shock_stage = state_->trace.shock_stage[i];

@@ -14,7 +14,7 @@
 #include "body/body_storage.h"
 #include "body/contact.h"
 #include "body/material_table.h"
-#include "broad_phase/broad_phase.h"
+#include "broad_phase/hash_grids.h"
 #include "cairn/world.h"
 #include "correction/correction.h"
 #include "geometry/geometry.h"
@@ -117,7 +117,7 @@ struct WorldState {
     Settings settings;
     Executor executor;
     std::array<HelpChoice, stage_count> help{};  ///< of each stage; measured times, on which no result depends
-    std::unique_ptr<BroadPhase> broad_phase;
+    HashGrids broad_phase;
     std::vector<std::unique_ptr<Correction>> corrections;  ///< [threads]
     std::unique_ptr<Resolution> resolution;
 

@@ -28,9 +28,9 @@ struct Fixture {
         return result;
     }
 
-    void sleep(const SleepSettings& settings) {
+    void sleep(const SleepSettings& settings, double step = time_step) {
         fallAsleep(bodies.state(), {bodies.motion, bodies.r_max, bodies.constant_force, bodies.constant_torque},
-                   settings, time_step, one_thread);
+                   settings, step, one_thread);
     }
 
     BodyStorage bodies;
@@ -102,33 +102,36 @@ TEST(FallingAsleep, FollowsAlgorithm5) {
     Fixture s(1);
     SleepSettings settings;
     settings.sleep_threshold = 0.01;
-    settings.motion_bias = 0.5;
-    settings.motion_limit = 3;
+    const double step = std::log(0.5) / std::log(0.9) / 240;  // after which half of the history counts
     s.bodies.motion[0] = 4e-4;
     s.bodies.v[0] = Vec3(0.003, 0, 0.004);
     s.bodies.w[0] = Vec3(0, 0.006, 0.008);
     // m² = 2 (0.005² + 0.01²·0.5²) = 1e-4; rwa = 0.5·4e-4 + 0.5·1e-4
-    s.sleep(settings);
+    s.sleep(settings, step);
     EXPECT_DOUBLE_EQ(s.bodies.motion[0], 2.5e-4);
     EXPECT_EQ(s.bodies.asleep[0], 0);
 
     s.bodies.v[0] = Vec3::Zero();
     s.bodies.w[0] = Vec3::Zero();
-    s.sleep(settings);
+    s.sleep(settings, step);
     EXPECT_DOUBLE_EQ(s.bodies.motion[0], 1.25e-4);
     EXPECT_EQ(s.bodies.asleep[0], 0);
     s.bodies.v[0] = Vec3(1e-3, 0, 0);
-    s.sleep(settings);
+    s.sleep(settings, step);
     EXPECT_EQ(s.bodies.asleep[0], 1);
     EXPECT_EQ(s.bodies.v[0], Vec3::Zero());
     EXPECT_DOUBLE_EQ(s.bodies.motion[0], 1e-4);
+}
+
+TEST(FallingAsleep, TheHistoryDecaysAlikeAtAnyTimeStep) {
+    EXPECT_EQ(motionBias(1.0 / 240), 0.9);
+    EXPECT_DOUBLE_EQ(std::pow(motionBias(1.0 / 960), 4), 0.9);
 }
 
 TEST(FallingAsleep, TheAverageIsCappedSoThatASuddenStopIsNotForgottenTooLate) {
     Fixture s(1);
     SleepSettings settings;
     settings.sleep_threshold = 0.01;
-    settings.motion_limit = 3;
     s.bodies.v[0] = Vec3(100, 0, 0);
     s.sleep(settings);
     EXPECT_DOUBLE_EQ(s.bodies.motion[0], 9e-4);

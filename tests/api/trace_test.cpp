@@ -9,7 +9,7 @@ TEST(Trace, TellsBoundsLevelCorrectionAndShockStage) {
     const Scene scene = builtInScene("tower:6");
     Settings settings = settingsFor(scene);
     settings.resolution.resolution = ResolutionKind::impulse_queue;
-    settings.resolution.global_iterations = 0.1;
+    settings.resolution.iterations = 0.1;
     SceneRun run(scene, settings);
     World& world = run.world();
     world.setTracing(Tracing::on);

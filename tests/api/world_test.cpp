@@ -12,7 +12,7 @@ const double nan = std::nan("");
 
 Settings exact() {
     Settings s = Settings::preset(Preset::performance);
-    s.gravity_damping.damping = 0;
+    s.sleep.damping = 0;
     return s;
 }
 
@@ -271,7 +271,7 @@ TEST(SettingsOfWorld, ContradictionsAreRefusedAtRunTime) {
     World world;
     EXPECT_THROW(world.setGravity(Vec3(0, 0, -1)), InputError);
     Settings s = Settings::preset(Preset::performance);
-    s.resolution.sweeps = 0;
+    s.resolution.iterations = -1;
     EXPECT_THROW(world.setSettings(s), InputError);
     EXPECT_THROW(World{s}, InputError);
     world.setSettings(Settings::preset(Preset::performance, 240, 1));

@@ -295,9 +295,9 @@ TEST(Variants, ChangeFieldsAndPreset) {
     SettingOverrides all;
     all.preset = Preset::performance;
     all.fields = {{"damping", "0"}};
-    const SettingOverrides made = combined(all, {"exact", {{"sweeps", "7"}}, Preset::accuracy});
+    const SettingOverrides made = combined(all, {"exact", {{"iterations", "7"}}, Preset::accuracy});
     EXPECT_EQ(made.preset, Preset::accuracy);
-    EXPECT_EQ(made.fields, (std::vector<std::pair<std::string, std::string>>{{"damping", "0"}, {"sweeps", "7"}}));
+    EXPECT_EQ(made.fields, (std::vector<std::pair<std::string, std::string>>{{"damping", "0"}, {"iterations", "7"}}));
     EXPECT_EQ(combined(all, {"plain", {}}).preset, Preset::performance);
 }
 

@@ -43,14 +43,11 @@ TEST(ThesisSettings, AreThoseOfTheHighPerformanceBenchmarks) {
     EXPECT_EQ(s.correction.penetration_threshold, 1.74e-3);
     EXPECT_EQ(s.sleep.sleep_threshold, 8.33e-3);
     EXPECT_EQ(s.resolution.resolution, ResolutionKind::impulse_queue);
-    EXPECT_EQ(s.resolution.order, ResolutionOrder::highest_closing_speed);
     EXPECT_EQ(s.resolution.resolution_threshold, 83.4e-6);
-    EXPECT_EQ(s.resolution.global_iterations, 2);
+    EXPECT_EQ(s.resolution.iterations, 2);
     EXPECT_TRUE(s.resolution.shock_propagation);
-    EXPECT_EQ(s.resolution.shock_iterations, 6);
     EXPECT_EQ(s.resolution.restitution_threshold, 4.58e-2);
-    EXPECT_EQ(s.gravity_damping.damping, 0.7);
-    EXPECT_EQ(s.gravity_damping.damping_threshold, 8.33e-2);
+    EXPECT_EQ(s.sleep.damping, 0.7);
     EXPECT_EQ(s.parallel.threads, 2);
     EXPECT_NO_THROW(validate(s, {0, 0, -10}));
 }
@@ -61,22 +58,22 @@ TEST(ThesisSettings, AreThoseOfTheHighAccuracyBenchmarks) {
     EXPECT_EQ(s.correction.penetration_threshold, 0.1e-3);
     EXPECT_EQ(s.sleep.sleep_threshold, 0.52e-3);
     EXPECT_EQ(s.resolution.resolution_threshold, 5.2e-6);
-    EXPECT_EQ(s.resolution.global_iterations, 0);
+    EXPECT_EQ(s.resolution.iterations, 0);
     EXPECT_FALSE(s.resolution.shock_propagation);
     EXPECT_EQ(s.resolution.restitution_threshold, 1.15e-2);
-    EXPECT_EQ(s.gravity_damping.damping, 0);
+    EXPECT_EQ(s.sleep.damping, 0);
     EXPECT_NO_THROW(validate(s, {0, 0, -10}));
 }
 
 TEST(ThesisSettings, VariantsChangeWhatTheyAreNamedFor) {
-    EXPECT_EQ(thesisSettings(Preset::thesis, 1, Variant::undamped).gravity_damping.damping, 0);
+    EXPECT_EQ(thesisSettings(Preset::thesis, 1, Variant::undamped).sleep.damping, 0);
     for (const Variant variant : {Variant::greedy, Variant::latest_first}) {
         const Settings s = thesisSettings(Preset::thesis, 1, variant);
-        EXPECT_EQ(s.resolution.global_iterations, 0);
+        EXPECT_EQ(s.resolution.iterations, 0);
         EXPECT_FALSE(s.resolution.shock_propagation);
-        EXPECT_EQ(s.gravity_damping.damping, 0.7);
-        EXPECT_EQ(s.resolution.order,
-                  variant == Variant::greedy ? ResolutionOrder::highest_closing_speed : ResolutionOrder::arbitrary);
+        EXPECT_EQ(s.sleep.damping, 0.7);
+        EXPECT_EQ(s.resolution.resolution,
+                  variant == Variant::greedy ? ResolutionKind::impulse_queue : ResolutionKind::arbitrary_order);
     }
 }
 

@@ -4,12 +4,14 @@
 #include <limits>
 #include <string>
 
+#include "broad_phase/all_pairs.h"
 #include "broad_phase/hash_grids.h"
 #include "broad_phase/scenes.h"
 
 namespace cairn {
 namespace {
 
+using broad_phase_tests::allPairs;
 using broad_phase_tests::allSizes;
 using broad_phase_tests::Bodies;
 using broad_phase_tests::densePile;
@@ -18,21 +20,22 @@ using broad_phase_tests::Random;
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<BodyPair> pairsOf(BroadPhase& broad_phase, const Bodies& bodies, int threads = 1) {
+std::vector<BodyPair> pairsOf(HashGrids& broad_phase, const Bodies& bodies, int threads = 1) {
     std::vector<BodyPair> pairs = {{7, 3}};  // what was there before must vanish
     broad_phase.findPairs(bodies.input(), Executor(threads), pairs);
     return pairs;
 }
 
-std::vector<BodyPair> pairsOf(BroadPhaseKind kind, const Bodies& bodies, int threads = 1) {
-    return pairsOf(*makeBroadPhase(kind), bodies, threads);
+std::vector<BodyPair> gridPairs(const Bodies& bodies, int threads = 1) {
+    HashGrids grids;
+    return pairsOf(grids, bodies, threads);
 }
 
 /// @param at_least how many pairs there must be for the comparison to mean something
 void expectEqualToAllPairs(const Bodies& bodies, std::size_t at_least) {
-    const auto expected = pairsOf(BroadPhaseKind::all_pairs, bodies);
+    const auto expected = allPairs(bodies.input());
     EXPECT_GE(expected.size(), at_least);
-    EXPECT_EQ(pairsOf(BroadPhaseKind::hash_grids, bodies), expected);
+    EXPECT_EQ(gridPairs(bodies), expected);
 }
 
 TEST(AllPairs, FindsExactlyTheOverlappingPairs) {
@@ -43,27 +46,18 @@ TEST(AllPairs, FindsExactlyTheOverlappingPairs) {
     bodies.add(Vec3(3, 1, 1), Vec3::Constant(1));                   // touches 1 with a face
     bodies.add(Vec3(0, 0, 0), Vec3::Constant(1), BodyKind::fixed);  // overlaps 0, both fixed
     bodies.add(Vec3(5.1, 1, 1), Vec3::Constant(1));                 // misses 3
-    EXPECT_EQ(pairsOf(BroadPhaseKind::all_pairs, bodies), (std::vector<BodyPair>{{0, 1}, {1, 3}, {1, 4}}));
-}
-
-TEST(AllPairs, IsSortedAndTheSameOnAnyNumberOfThreads) {
-    Random random(1);
-    const Bodies bodies = allSizes(random, 500, 0.01, Vec3::Zero());
-    const auto expected = pairsOf(BroadPhaseKind::all_pairs, bodies);
-    ASSERT_GT(expected.size(), 100u);
-    EXPECT_TRUE(std::is_sorted(expected.begin(), expected.end()));
-    for (const int threads : {2, 3, 4, 8}) EXPECT_EQ(pairsOf(BroadPhaseKind::all_pairs, bodies, threads), expected);
+    EXPECT_EQ(allPairs(bodies.input()), (std::vector<BodyPair>{{0, 1}, {1, 3}, {1, 4}}));
 }
 
 TEST(HashGrids, NoneOneAndTwoBodies) {
     Bodies bodies;
-    EXPECT_TRUE(pairsOf(BroadPhaseKind::hash_grids, bodies).empty());
+    EXPECT_TRUE(gridPairs(bodies).empty());
     bodies.add(Vec3(1, 2, 3), Vec3::Constant(0.5));
-    EXPECT_TRUE(pairsOf(BroadPhaseKind::hash_grids, bodies).empty());
+    EXPECT_TRUE(gridPairs(bodies).empty());
     bodies.add(Vec3(1.5, 2, 3), Vec3::Constant(0.5));
-    EXPECT_EQ(pairsOf(BroadPhaseKind::hash_grids, bodies), (std::vector<BodyPair>{{0, 1}}));
+    EXPECT_EQ(gridPairs(bodies), (std::vector<BodyPair>{{0, 1}}));
     bodies.bounds[1] = {Vec3(9, 9, 9), Vec3(10, 10, 10)};
-    EXPECT_TRUE(pairsOf(BroadPhaseKind::hash_grids, bodies).empty());
+    EXPECT_TRUE(gridPairs(bodies).empty());
 }
 
 TEST(HashGrids, LeaveOutPairsOfStillBodies) {
@@ -72,16 +66,15 @@ TEST(HashGrids, LeaveOutPairsOfStillBodies) {
         Random random(one_of);
         Bodies bodies = allSizes(random, 600, 0.01, Vec3::Zero());
         bodies.add({Vec3(-inf, -inf, -inf), Vec3(inf, inf, 0)}, BodyKind::fixed);
-        const auto all = pairsOf(BroadPhaseKind::all_pairs, bodies);
+        const auto all = allPairs(bodies.input());
         for (std::size_t i = 0; i < bodies.size(); ++i) bodies.still.push_back(random.below(one_of) == 0 ? 0 : 1);
         std::vector<BodyPair> expected;
         for (const BodyPair& pair : all) {
             if (bodies.still[pair.a] == 0 || bodies.still[pair.b] == 0) expected.push_back(pair);
         }
         ASSERT_GT(expected.size(), 2U);
-        for (const auto kind : {BroadPhaseKind::all_pairs, BroadPhaseKind::hash_grids}) {
-            EXPECT_EQ(pairsOf(kind, bodies, 3), expected);
-        }
+        EXPECT_EQ(allPairs(bodies.input()), expected);
+        EXPECT_EQ(gridPairs(bodies, 3), expected);
     }
 }
 
@@ -149,7 +142,7 @@ TEST(HashGrids, EqualAllPairsWhenAllAreInOneCell) {
 
     Bodies same;
     for (int i = 0; i < 200; ++i) same.add(Vec3(-3, 7, 1e5), Vec3(0.1, 0.2, 0.3));
-    EXPECT_EQ(pairsOf(BroadPhaseKind::hash_grids, same).size(), 200u * 199u / 2);
+    EXPECT_EQ(gridPairs(same).size(), 200u * 199u / 2);
     expectEqualToAllPairs(same, 200 * 199 / 2);
 }
 
@@ -180,10 +173,10 @@ TEST(HashGrids, EqualAllPairsWithInfiniteBodies) {
 TEST(HashGrids, BoundsThatAreNotNumbersOrInsideOutTouchWhatTheOracleSays) {
     Random random(8);
     Bodies bodies = densePile(random, 5);
-    const auto before = pairsOf(BroadPhaseKind::hash_grids, bodies);
+    const auto before = gridPairs(bodies);
     bodies.add(Bounds{Vec3(nan, 0, 0), Vec3(1, 1, 1)});
     bodies.add(Bounds{Vec3(0, 0, 0), Vec3(1, nan, 1)});
-    EXPECT_EQ(pairsOf(BroadPhaseKind::hash_grids, bodies), before);
+    EXPECT_EQ(gridPairs(bodies), before);
     bodies.add(Bounds{Vec3(3, 3, 3), Vec3(2.8, 2.8, 2.8)});
     bodies.add(Bounds{Vec3(-1e308, -1e308, -1e308), Vec3(1e308, 1e308, 1e308)});
     bodies.shuffle(random);
@@ -217,7 +210,7 @@ TEST(HashGrids, HolesAreInNoPair) {
         if (i % 2 == 0) bodies.bounds[i].lower.setConstant(nan);  // whatever is left there must not matter
     }
     expectEqualToAllPairs(bodies, 300);
-    for (const BodyPair& pair : pairsOf(BroadPhaseKind::hash_grids, bodies)) {
+    for (const BodyPair& pair : gridPairs(bodies)) {
         EXPECT_NE(bodies.kind[pair.a], BodyKind::hole);
         EXPECT_NE(bodies.kind[pair.b], BodyKind::hole);
     }
@@ -236,14 +229,14 @@ TEST(HashGrids, EqualAllPairsWithMoreLevelsThanTheHierarchyHas) {
 }
 
 TEST(HashGrids, AnInstanceForgetsTheStepBefore) {
-    const auto grids = makeBroadPhase(BroadPhaseKind::hash_grids);
+    HashGrids grids;
     Random random(12);
     const Bodies large = allSizes(random, 800, 0.01, Vec3::Zero());
     const Bodies small = densePile(random, 3, Vec3(50, 0, 0));
     for (int round = 0; round < 2; ++round) {
-        EXPECT_EQ(pairsOf(*grids, large), pairsOf(BroadPhaseKind::all_pairs, large));
-        EXPECT_EQ(pairsOf(*grids, small), pairsOf(BroadPhaseKind::all_pairs, small));
-        EXPECT_TRUE(pairsOf(*grids, Bodies{}).empty());
+        EXPECT_EQ(pairsOf(grids, large), allPairs(large.input()));
+        EXPECT_EQ(pairsOf(grids, small), allPairs(small.input()));
+        EXPECT_TRUE(pairsOf(grids, Bodies{}).empty());
     }
 }
 
@@ -252,9 +245,9 @@ TEST(HashGrids, AreTheSameOnAnyNumberOfThreads) {
     Bodies bodies = allSizes(random, 12000, 0.001, Vec3(10, 20, -30));
     for (int i = 0; i < 3; ++i) bodies.add(Bounds{}, BodyKind::fixed);
     bodies.shuffle(random);
-    const auto expected = pairsOf(BroadPhaseKind::hash_grids, bodies);
+    const auto expected = gridPairs(bodies);
     ASSERT_GT(expected.size(), 40000u) << "few pairs are sorted by one thread";
-    for (const int threads : {2, 3, 4, 8}) EXPECT_EQ(pairsOf(BroadPhaseKind::hash_grids, bodies, threads), expected);
+    for (const int threads : {2, 3, 4, 8}) EXPECT_EQ(gridPairs(bodies, threads), expected);
 }
 
 TEST(HashGrids, LevelsGrowWithTheSizeAndInfiniteBodiesHaveNone) {
@@ -271,7 +264,6 @@ TEST(HashGrids, LevelsGrowWithTheSizeAndInfiniteBodiesHaveNone) {
     EXPECT_EQ(grids.level(120), -1);
     EXPECT_EQ(grids.level(121), -1);
     EXPECT_EQ(grids.level(122), -1) << "beyond the last slot";
-    EXPECT_EQ(makeBroadPhase(BroadPhaseKind::all_pairs)->level(0), -1);
 }
 
 }  // namespace

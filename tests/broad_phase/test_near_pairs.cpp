@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "broad_phase/hash_grids.h"
 #include "broad_phase/near_pairs.h"
 #include "broad_phase/scenes.h"
 
@@ -15,14 +16,14 @@ class CountedGrids final : public BroadPhase {
   public:
     void findPairs(const BroadPhaseInput& input, const Executor& executor, std::vector<BodyPair>& pairs) override {
         ++searches;
-        grids_->findPairs(input, executor, pairs);
+        grids_.findPairs(input, executor, pairs);
     }
-    int level(BodyIndex body) const override { return grids_->level(body); }
+    int level(BodyIndex body) const override { return grids_.level(body); }
 
     int searches = 0;
 
   private:
-    std::unique_ptr<BroadPhase> grids_ = makeBroadPhase(BroadPhaseKind::hash_grids);
+    HashGrids grids_;
 };
 
 /// Bodies that move, and what near pairs are told of them.

@@ -10,7 +10,7 @@ using Json = nlohmann::json;
 
 TEST_F(CommandLine, benchComparesResolversAndPresetsSideBySide) {
     const Finished done = cairn({"bench", "scenes", "--quick", "--scenes", "tower:2", "--resolver", "sweep,none",
-                                 "--variant", "exact:preset=accuracy,sweeps=3", "--json", "--save", "saved.json"});
+                                 "--variant", "exact:preset=accuracy,iterations=3", "--json", "--save", "saved.json"});
     ASSERT_EQ(done.code, 0) << done.error;
     const Json result = Json::parse(done.out);
     EXPECT_EQ(result, Json::parse(read("saved.json")));

@@ -81,7 +81,7 @@ TEST_F(CommandLine, wrongSettingsAreRefused) {
     expectWrongUse({"run", "tower:2", "--set", "nonsense=1"}, {"nonsense", "sleep_threshold"});
     expectWrongUse({"run", "tower:2", "--set", "damping=2"}, {"damping", "2", "0.99"});
     expectWrongUse({"run", "tower:2", "--set", "damping=nan"}, {"damping"});
-    expectWrongUse({"run", "tower:2", "--set", "broad_phase=octree"}, {"octree", "hash_grids"});
+    expectWrongUse({"run", "tower:2", "--set", "correction=pushes"}, {"pushes", "propagated"});
     expectWrongUse({"run", "tower:2", "--set", "sleep_threshold=1"}, {"sleep_threshold"});
 }
 

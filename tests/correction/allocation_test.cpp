@@ -36,7 +36,7 @@ TEST(PropagatedCorrection, AllocatesNothingOnceItHasSearchedAsFar) {
         std::copy(start.contacts.begin(), start.contacts.end(), scene.contacts.begin());
         const std::size_t before = allocations;
         const CorrectionCounts counts =
-            correction->correct({{}, indices}, table, scene.contacts, scene.state(), scene.settings);
+            correction->correct({{}, indices}, table, scene.contacts, scene.state(), scene.remaining_part);
         EXPECT_EQ(counts.corrected, 5);
         EXPECT_GE(counts.displaced, 100);
         return allocations - before;
@@ -64,7 +64,7 @@ TEST(PositionSweeps, AllocateNothingOnceTheyKnowTheBatch) {
         std::ranges::copy(start, scene.contacts.begin());
         const std::size_t before = allocations;
         const CorrectionCounts counts =
-            correction->correct({bodies, indices}, {}, scene.contacts, scene.state(), scene.settings);
+            correction->correct({bodies, indices}, {}, scene.contacts, scene.state(), scene.remaining_part);
         EXPECT_GT(counts.displaced, 0);
         return allocations - before;
     };

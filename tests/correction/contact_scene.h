@@ -16,12 +16,10 @@ inline const Vec3 up = Vec3::UnitZ();
 struct ContactScene : BodyStorage {
     std::vector<Contact> contacts;
     CorrectionSettings settings;
+    double remaining_part = 0.5;  ///< that a correction leaves
 
     /// A threshold and a remaining part so small that contacts behave as in §2.3, before (2.5.4) refines it.
-    ContactScene() {
-        settings.penetration_threshold = 1e-9;
-        settings.remaining_penetration = 0.5;
-    }
+    ContactScene() { settings.penetration_threshold = 1e-9; }
 
     BodyIndex add(BodyKind new_kind, const Vec3& at) {
         const BodyIndex i = allocate(new_kind);
@@ -76,12 +74,12 @@ struct ContactScene : BodyStorage {
         }
         std::vector<std::uint32_t> indices(contacts.size());
         std::iota(indices.begin(), indices.end(), 0U);
-        return correction.correct({bodies, indices}, contactsOfBodies(), contacts, state(), settings);
+        return correction.correct({bodies, indices}, contactsOfBodies(), contacts, state(), remaining_part);
     }
 
     CorrectionCounts correct() { return correctWith(*makeCorrection(CorrectionKind::propagated)); }
 
-    double remaining() const { return -settings.remaining_penetration * settings.penetration_threshold; }
+    double remaining() const { return -remaining_part * settings.penetration_threshold; }
 };
 
 inline bool near(const Vec3& a, const Vec3& b, double tolerance = 1e-12) {

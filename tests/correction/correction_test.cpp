@@ -146,7 +146,7 @@ TEST(PropagatedCorrection, CorrectsOnlyTheContactsOfItsBatch) {
     const std::vector<std::uint32_t> indices{1};
     const CorrectionCounts counts =
         makeCorrection(CorrectionKind::propagated)
-            ->correct({bodies, indices}, scene.contactsOfBodies(), scene.contacts, scene.state(), scene.settings);
+            ->correct({bodies, indices}, scene.contactsOfBodies(), scene.contacts, scene.state(), scene.remaining_part);
     EXPECT_EQ(counts.penetrating, 1);
     EXPECT_EQ(scene.position[x], Vec3::Zero());
     EXPECT_NEAR(scene.position[y].z(), 0.25, 1e-8);

@@ -9,10 +9,7 @@ namespace {
 
 /// Penetrating below −1/16, corrected to −1/32: powers of two, so that sums in the tests are exact.
 struct Figure : ContactScene {
-    Figure() {
-        settings.penetration_threshold = 1.0 / 16;
-        settings.remaining_penetration = 0.5;
-    }
+    Figure() { settings.penetration_threshold = 1.0 / 16; }
     static constexpr double touching = -1.0 / 32;  // nothing to spare: any push is handed on
     double distance(std::uint32_t contact) const { return contacts[contact].distance; }
     Vec3 moved(BodyIndex body, const Vec3& from = Vec3::Zero()) const { return position[body] - from; }
@@ -290,7 +287,7 @@ TEST(Figure12, APartOfTheOverlapRemains) {
     const BodyIndex block = scene.addFixed();
     const BodyIndex sphere = scene.addBody();
     const auto contact = scene.touch(sphere, block, up, -1.0 / 8);
-    scene.settings.remaining_penetration = 0.25;
+    scene.remaining_part = 0.25;
     expectCounts(scene.correct(), 1, 1, 1);
     EXPECT_EQ(scene.distance(contact), -1.0 / 64);
     expectCounts(scene.correct(), 0, 0, 0);

@@ -18,10 +18,7 @@ struct SweptScene : ContactScene {
     static constexpr double threshold = 0.01;
     static constexpr double gravity = 10;
 
-    SweptScene() {
-        settings.penetration_threshold = threshold;
-        settings.remaining_penetration = 0.5;
-    }
+    SweptScene() { settings.penetration_threshold = threshold; }
     CorrectionCounts run() {
         PositionSweeps sweeps;
         return runWith(sweeps);
@@ -35,7 +32,7 @@ struct SweptScene : ContactScene {
         std::iota(indices.begin(), indices.end(), 0U);
         BodyState all = state();
         all.acceleration = Vec3(0, 0, -gravity);
-        return sweeps.correct({bodies, indices}, {}, contacts, all, settings);
+        return sweeps.correct({bodies, indices}, {}, contacts, all, remaining_part);
     }
     double energy() const {
         double sum = 0;
@@ -62,7 +59,7 @@ TEST(PositionSweeps, LeaveContactsDownToTheThreshold) {
 
 TEST(PositionSweeps, LeaveTheRemainingPartOfADeeperOne) {
     SweptScene scene;
-    scene.settings.remaining_penetration = 0.7;
+    scene.remaining_part = 0.7;
     const BodyIndex x = scene.addBody();
     const BodyIndex ground = scene.addFixed();
     scene.touch(x, ground, up, -0.012);

@@ -24,7 +24,7 @@ struct Pushing : ContactScene {
         const ContactsOfBodies table = contactsOfBodies();
         const BodyState bodies = state();
         search.reserve(bodies.size());
-        graph.reset(table, contacts, bodies, settings.remaining_penetration);
+        graph.reset(table, contacts, bodies, remaining_part);
         return search.run({body, other, CandidateKind::normal, displacement}, graph, limit);
     }
     Vec3 displacementOf(BodyIndex body) const { return search.share(body) * search.displacement(); }
@@ -82,7 +82,7 @@ TEST(Propagation, AGapTakesItsPartOfTheDisplacement_Eq2_3_5_Eq2_3_6) {
 TEST(Propagation, TheGapIsMeasuredFromTheRemainingPenetration_Eq2_5_5_Eq2_5_6) {
     Pushing world;
     world.settings.penetration_threshold = 0.5;
-    world.settings.remaining_penetration = 0.5;  // contacts may be pushed down to −0.25
+    world.remaining_part = 0.5;  // contacts may be pushed down to −0.25
     const BodyIndex x = world.addBody();
     const BodyIndex y = world.addBody();
     world.touch(y, x, Vec3::UnitX(), 0);

@@ -41,7 +41,7 @@ inline ContactScene randomScene(std::uint64_t seed, std::size_t largest = 11) {
     Random random(seed);
     ContactScene scene;
     scene.settings.penetration_threshold = random.chance(0.2) ? 1e-9 : 1.74e-3;
-    scene.settings.remaining_penetration = random.uniform(0.1, 0.9);
+    scene.remaining_part = random.uniform(0.1, 0.9);
     const std::size_t bodies = 2 + random.below(largest - 1);
     for (std::size_t i = 0; i < bodies; ++i) {
         const Vec3 at(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));

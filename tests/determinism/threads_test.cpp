@@ -57,18 +57,5 @@ TEST(PositionSweeps, GiveTheSameStatesOnAnyNumberOfThreads) {
     EXPECT_GT(displaced, 0);
 }
 
-TEST(BodyOrder, BroadPhasesGiveTheSameRun) {
-    const Scene scene = builtInScene("cage384");
-    Settings settings = settingsFor(scene);
-    SceneRun grids(scene, settings);
-    settings.detection.broad_phase = BroadPhaseKind::all_pairs;
-    SceneRun all_pairs(scene, settings);
-    for (int i = 0; i < 360; ++i) {
-        grids.step();
-        all_pairs.step();
-        ASSERT_EQ(grids.world().stateHash(), all_pairs.world().stateHash()) << i;
-    }
-}
-
 }  // namespace
 }  // namespace cairn

@@ -24,11 +24,8 @@ inline void require(bool fulfilled) {
 /// Settings may allow a step any number of iterations, and some batches take millions; one thread and a few do here.
 inline void boundWork(Settings& settings) {
     constexpr double most = 100;
-    ResolutionSettings& r = settings.resolution;
-    for (double* iterations : {&r.global_iterations, &r.shock_iterations}) {
-        *iterations = *iterations == 0 ? most : std::min(*iterations, most);
-    }
-    for (std::int64_t* sweeps : {&r.sweeps, &r.iterations}) *sweeps = std::min<std::int64_t>(*sweeps, 100);
+    double& iterations = settings.resolution.iterations;
+    iterations = iterations == 0 ? most : std::min(iterations, most);
     settings.parallel.threads = 1;
 }
 

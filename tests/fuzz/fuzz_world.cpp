@@ -1,6 +1,7 @@
 /// Any sequence of calls is carried out or refused with InputError, and no step breaks an invariant. A copy from a
 /// snapshot goes on in the same way, and going back to a moment undoes everything. Usual worlds without restitution are
 /// also held to their energy.
+#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -207,9 +208,12 @@ void act(World& world, fuzz::Bytes& in, Made& made) {
             return world.setGlobalAcceleration(in.vector(20));
         case 20: {
             Settings s = world.settings();
-            s.resolution.resolution = static_cast<ResolutionKind>(in.below(4));
+            constexpr std::array kinds = {ResolutionKind::impulse_queue, ResolutionKind::sweep,
+                                          ResolutionKind::accelerated_sweeps, ResolutionKind::none};
+            s.resolution.resolution = kinds[in.below(kinds.size())];
             s.sleep.sleeping = in.below(2) == 0;
-            s.detection.broad_phase = static_cast<BroadPhaseKind>(in.below(2));
+            ResolutionKind& kind = s.resolution.resolution;
+            if (in.below(2) == 1 && kind == ResolutionKind::impulse_queue) kind = ResolutionKind::arbitrary_order;
             s.steps_per_second = 30 + 300 * std::abs(in.within(1));
             return world.setSettings(s);
         }

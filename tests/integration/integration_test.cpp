@@ -73,7 +73,7 @@ TEST(Positions, AwakeBodiesMoveByTheirVelocityAndNoteTheWay) {
         bodies.linear_step[i] = Vec3::Ones();
     }
     bodies.asleep[asleep] = 1;
-    advancePositions(bodies, {}, 0.1, one_thread);
+    advancePositions(bodies, 0.1, one_thread);
     EXPECT_TRUE(bodies.position[awake].isApprox(Vec3(0.1, 0.2, 0.3)));
     EXPECT_TRUE(bodies.linear_step[awake].isApprox(Vec3(0.1, 0.2, 0.3)));
     EXPECT_TRUE(bodies.inertiaInv_W[awake].isApprox(
@@ -94,7 +94,7 @@ TEST(Velocities, ForcesTorquesAndGravityActForOneStep) {
     bodies.constant_force[i] = Vec3(0, 2, 0);
     bodies.torque[i] = Vec3(0, 2, 0);
     bodies.constant_torque[i] = Vec3(0, 0, 4);
-    const GravityDampingSettings off{.damping = 0, .damping_threshold = 0};
+    const SleepSettings off{.damping = 0};
     advanceVelocities(bodies, Vec3(0, 0, -10), off, 0.1, one_thread);
     EXPECT_TRUE(bodies.v[i].isApprox(Vec3(0.2, 0.1, -1)));
     EXPECT_TRUE(bodies.w[i].isApprox(Vec3(0, 0.1, 0.1)));
@@ -142,10 +142,10 @@ TEST(Positions, CompletingFreeFallMeetsTheParabolaTo12DigitsAndLeavesDisplacedBo
     VelocitiesBefore before;
     for (int step = 1; step <= 38400; ++step) {
         notePositions(bodies, one_thread, before);
-        advancePositions(bodies, {}, time_step, one_thread);
+        advancePositions(bodies, time_step, one_thread);
         if (step == 100) bodies.position[displaced] += displacement;
         noteVelocities(bodies, one_thread, before);
-        advanceVelocities(bodies, gravity, {.damping_threshold = 0}, time_step, one_thread, step);
+        advanceVelocities(bodies, gravity, {.damping = 0}, time_step, one_thread, step);
         noteForced(bodies, one_thread, before);
         completeSmoothMotion(bodies, before, {}, time_step, one_thread);
     }
@@ -155,7 +155,7 @@ TEST(Positions, CompletingFreeFallMeetsTheParabolaTo12DigitsAndLeavesDisplacedBo
 }
 
 TEST(Velocities, GravityDampingOfAlgorithm12) {
-    const GravityDampingSettings damping{.damping = 0.7, .damping_threshold = 0.1};
+    const SleepSettings damping{.sleep_threshold = 0.01, .damping = 0.7};
     for (const double part : {0.99, 1.01}) {
         BodyStorage bodies;
         const BodyIndex i = addBody(bodies, 1, Vec3::Ones());
@@ -189,7 +189,7 @@ TEST(Springs, AnUndampedOscillatorHasItsPeriod) {
     // ω = √(k/m) = 10 rad/s: after half a period the mass is on the other side of its rest length.
     const int steps = static_cast<int>(3.14159265358979 / 10 / time_step);
     for (int k = 0; k < steps; ++k) {
-        advancePositions(bodies, {}, time_step, one_thread);
+        advancePositions(bodies, time_step, one_thread);
         applySprings(springs, bodies, time_step);
     }
     EXPECT_NEAR(bodies.position[i].x(), 0.5, 1e-3);
@@ -210,7 +210,7 @@ TEST(Springs, StiffSpringsOnLightBodiesDoNotExplodeAndKeepMomentum) {
                                           .rest_length = 1}};
     double fastest = 0;
     for (int k = 0; k < 1000; ++k) {
-        advancePositions(bodies, {}, 1.0 / 240, one_thread);
+        advancePositions(bodies, 1.0 / 240, one_thread);
         applySprings(springs, bodies, 1.0 / 240);
         ASSERT_LT(bodies.v[a].norm(), 1e3);
         fastest = std::max(fastest, bodies.v[a].norm());

@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <vector>
+
+#include "broad_phase/hash_grids.h"
 
 namespace cairn {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 struct Row {
     BodyStorage bodies;
     MaterialTable materials;
-    std::unique_ptr<BroadPhase> broad_phase = makeBroadPhase(BroadPhaseKind::hash_grids);
+    HashGrids broad_phase;
     std::vector<BodyPair> excluded;
     DetectionRange range{.threshold = 1};
     Executor executor;
@@ -33,7 +34,7 @@ struct Row {
         return b;
     }
 
-    PairsInput input() { return {bodies, materials, *broad_phase, excluded, range, executor}; }
+    PairsInput input() { return {bodies, materials, broad_phase, excluded, range, executor}; }
     void detect() { pairs.detect(input(), contacts); }
     void beginStep(std::span<const std::uint32_t> generation) { pairs.beginStep(bodies, generation, executor); }
     void moveTo(BodyIndex i, const Vec3& position) { bodies.position[i] = position; }

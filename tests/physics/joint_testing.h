@@ -12,7 +12,7 @@ inline constexpr double joint_gravity = 9.81;
 /// Nothing is damped, put to sleep or held.
 inline Settings undamped(double steps_per_second = 960) {
     Settings settings = Settings::preset(Preset::accuracy, steps_per_second);
-    settings.gravity_damping.damping = 0;
+    settings.sleep.damping = 0;
     settings.sleep.sleeping = false;
     settings.resolution.tolerance = 0;
     return settings;

@@ -161,7 +161,7 @@ TEST(SurfaceMotion, SlidingOverAThousandTrianglesLosesNoEnergy) {
     const Mesh track = testing::irregularMesh(100, 20, 17, [](double, double) { return 0.0; });
     Settings settings = Settings::preset(Preset::accuracy);
     settings.sleep.sleeping = false;
-    settings.gravity_damping.damping = 0;
+    settings.sleep.damping = 0;
     for (const auto& [name, shape] : testing::solids()) {
         OnSurface ground(track, 0, settings);
         const BodyId id = ground.world.addBody({.shape = shape,

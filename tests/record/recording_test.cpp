@@ -20,7 +20,7 @@ TEST(Recording, keepsSceneSettingsVersionAndMachine) {
     Settings settings = settingsFor(scene);
     setFieldFromText(settings, "damping", "0.125");
     setFieldFromText(settings, "sleeping", "false");
-    setFieldFromText(settings, "broad_phase", "all_pairs");
+    setFieldFromText(settings, "resolution", "sweep");
     RecordingWriter(folder / "a.h5", scene, settings).close();
     const RecordingInfo info = RecordingReader(folder / "a.h5").info();
     EXPECT_EQ(formatScene(info.scene), formatScene(scene));

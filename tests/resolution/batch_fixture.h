@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "activity/selection.h"
+#include "resolution/algorithms.h"
 #include "resolution/resolution.h"
 
 namespace cairn::test {
@@ -45,6 +46,7 @@ class Pile : public BodyStorage {
   public:
     std::vector<Contact> contacts;
     Vec3 gravity = Vec3::Zero();  ///< whose work in the step the velocities have already [m/s²]
+    double wake_speed = 8.33e-3;  ///< SelectionInput::wake_speed [m/s]
 
     BodyIndex add(const Vec3& at, double m, const Mat3& inertia) {
         const BodyIndex i = addFixed(at);
@@ -102,7 +104,7 @@ class Pile : public BodyStorage {
                          contacts,
                          all,
                          parts ? Selecting::awake_parts : Selecting::awake_batches,
-                         settings.wake_speed,
+                         wake_speed,
                          executor});
         all.held = selection.held();
         ResolutionCounts counts;
@@ -149,13 +151,18 @@ class Pile : public BodyStorage {
     }
 };
 
+/// Resolves a pile by the thesis's algorithm with other constants.
+inline ResolutionCounts resolveWith(const QueueConstants& constants, Pile& pile, const ResolutionSettings& settings) {
+    return pile.resolve(*makePerBatch([&] { return makeImpulseQueueResolution(constants); }), settings);
+}
+
 /// Settings that resolve everything to the end by the global algorithm.
 inline ResolutionSettings exactSettings() {
     ResolutionSettings settings;
     settings.resolution_threshold = 1e-9;
     settings.restitution_threshold = 1e-3;
     settings.resolution = ResolutionKind::impulse_queue;
-    settings.global_iterations = 0;
+    settings.iterations = 0;
     settings.shock_propagation = false;
     return settings;
 }

@@ -17,12 +17,9 @@ ResolutionSettings lawSettings(ResolutionKind kind) {
     settings.resolution = kind;
     settings.resolution_threshold = 1e-12;
     settings.restitution_threshold = 1e-9;
-    settings.global_iterations = 0;
+    settings.iterations = kind == ResolutionKind::impulse_queue ? 0 : 2000;
     settings.shock_propagation = false;
-    settings.iterations = 2000;
     settings.tolerance = 0;
-    settings.sweep_tolerance = 1e-12;
-    settings.sweeps = 2000;
     return settings;
 }
 

@@ -13,7 +13,6 @@ ResolutionSettings fewSweeps() {
     settings.resolution = ResolutionKind::accelerated_sweeps;
     settings.restitution_threshold = 0.05;
     settings.iterations = 1;
-    settings.direct_limit = 0;
     return settings;
 }
 

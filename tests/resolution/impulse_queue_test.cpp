@@ -10,8 +10,8 @@
 namespace cairn::test {
 namespace {
 
-constexpr std::int64_t always_array = std::int64_t{1} << 40;
-constexpr std::int64_t always_tournament = 0;
+constexpr std::size_t always_array = std::size_t{1} << 40;
+constexpr std::size_t always_tournament = 0;
 
 /// The bytes of all velocities must agree.
 void expectSameState(const Pile& x, const Pile& y) {
@@ -98,14 +98,14 @@ TEST(ImpulseQueue, TakesTheFastestContactFirst) {
     pile.touch(wall, right, Vec3(2, 0, 0.5), Vec3::UnitX());
     pile.touch(left, right, Vec3(1, 0, 0.5), -Vec3::UnitX());
     ResolutionSettings settings = exactSettings();
-    settings.global_iterations = 0.3;  // one iteration
+    settings.iterations = 0.3;  // one iteration
     EXPECT_EQ(pile.resolve(settings).global_iterations, 1);
     EXPECT_EQ(pile.v[left], Vec3(0, 0, -1));
     EXPECT_NEAR(pile.v[right].norm(), 0, 1e-14);
 }
 
 TEST(ImpulseQueue, PicksTheSmallestDeltaOfManyContacts) {
-    for (const std::int64_t queue_switch : {always_array, always_tournament}) {
+    for (const std::size_t queue_switch : {always_array, always_tournament}) {
         for (std::uint64_t seed = 0; seed < 50; ++seed) {
             Pile pile = randomPile(seed, 40, 100, 2);
             std::size_t fastest = 0;
@@ -113,9 +113,8 @@ TEST(ImpulseQueue, PicksTheSmallestDeltaOfManyContacts) {
                 if (pile.delta(pile.contacts[i]) < pile.delta(pile.contacts[fastest])) fastest = i;
             }
             ResolutionSettings settings = exactSettings();
-            settings.global_iterations = 1e-3;
-            settings.queue_switch = queue_switch;
-            ASSERT_EQ(pile.resolve(settings).global_iterations, 1);
+            settings.iterations = 1e-3;
+            ASSERT_EQ(resolveWith({.queue_switch = queue_switch}, pile, settings).global_iterations, 1);
             for (std::size_t i = 0; i < pile.contacts.size(); ++i) {
                 ASSERT_EQ(pile.contacts[i].impulse.norm() > 0, i == fastest);
             }
@@ -130,9 +129,9 @@ TEST(ImpulseQueue, DoesWhatTheThesisWritesDown) {
         Pile pile = randomPile(seed, 30, 70, seed % 4, 0.4, {0.5, 0.3});
         Pile oracle = pile;
         const std::int64_t limit = 200;
-        settings.global_iterations = static_cast<double>(limit) / 70;
-        settings.queue_switch = seed % 2 == 0 ? always_array : always_tournament;
-        const std::int64_t iterations = pile.resolve(settings).global_iterations;
+        settings.iterations = static_cast<double>(limit) / 70;
+        const QueueConstants constants{.queue_switch = seed % 2 == 0 ? always_array : always_tournament};
+        const std::int64_t iterations = resolveWith(constants, pile, settings).global_iterations;
         EXPECT_EQ(iterations, resolveBatchByTheBook(oracle, settings, limit)) << "seed " << seed;
         for (std::size_t i = 0; i < pile.kind.size(); ++i) {
             ASSERT_LT((pile.v[i] - oracle.v[i]).norm(), 1e-9) << "seed " << seed;
@@ -158,7 +157,7 @@ TEST(ImpulseQueue, ConservesMomentum) {
         Pile pile = randomPile(seed, 40, 90, 0, 0.5, {0.5, 0.4});
         const Vec3 momentum = pile.momentum(), angular = pile.angularMomentum();
         ResolutionSettings settings = exactSettings();
-        settings.global_iterations = 5;
+        settings.iterations = 5;
         ASSERT_GT(pile.resolve(settings).global_iterations, 20);
         EXPECT_LT((pile.momentum() - momentum).norm(), 1e-12);
         EXPECT_LT((pile.angularMomentum() - angular).norm(), 1e-12);
@@ -172,7 +171,7 @@ TEST(ImpulseQueue, NeverGainsEnergyWithoutFrictionAndKeepsItWhenElastic) {
             const double energy = pile.energy();
             ResolutionSettings settings = exactSettings();
             settings.restitution_threshold = 0;
-            settings.global_iterations = 20;
+            settings.iterations = 20;
             pile.resolve(settings);
             EXPECT_LE(pile.energy(), energy * (1 + 1e-12));
             if (e == 1.0) {
@@ -189,16 +188,17 @@ TEST(ImpulseQueue, GivesTheSameBitsWithBothQueues) {
     for (std::uint64_t seed = 0; seed < 30; ++seed) piles.push_back(randomPile(seed, 20 + 5 * seed, 40 + 12 * seed, 3));
     ResolutionSettings settings;
     settings.resolution = ResolutionKind::impulse_queue;
-    settings.shock_iterations = 3;
+    settings.iterations = 2;
+    QueueConstants constants{.shock_iterations = 3};
     bool shock_ran = false;
     for (const Pile& pile : piles) {
         Pile array = pile, tournament = pile, hybrid = pile;
-        settings.queue_switch = always_array;
-        const ResolutionCounts counts = array.resolve(settings);
-        settings.queue_switch = always_tournament;
-        EXPECT_EQ(tournament.resolve(settings).shock_iterations, counts.shock_iterations);
-        settings.queue_switch = 30;  // the stages of the shock propagation differ
-        hybrid.resolve(settings);
+        constants.queue_switch = always_array;
+        const ResolutionCounts counts = resolveWith(constants, array, settings);
+        constants.queue_switch = always_tournament;
+        EXPECT_EQ(resolveWith(constants, tournament, settings).shock_iterations, counts.shock_iterations);
+        constants.queue_switch = 30;  // the stages of the shock propagation differ
+        resolveWith(constants, hybrid, settings);
         expectSameState(array, tournament);
         expectSameState(array, hybrid);
         shock_ran = shock_ran || counts.shock_batches > 0;
@@ -209,7 +209,7 @@ TEST(ImpulseQueue, GivesTheSameBitsWithBothQueues) {
 TEST(ImpulseQueue, StopsAtItsLimit) {
     Pile pile = latticePile(4, 6);
     ResolutionSettings settings = exactSettings();
-    settings.global_iterations = 1.5;
+    settings.iterations = 1.5;
     EXPECT_EQ(pile.resolve(settings).global_iterations, iterationLimit(1.5, pile.contacts.size()));
     EXPECT_LT(pile.smallestDelta(), -1e-9);
 }
@@ -220,7 +220,7 @@ TEST(ImpulseQueue, ResolvesEverythingInArbitraryOrder) {
     ResolutionSettings settings = exactSettings();
     settings.resolution_threshold = 1e-4;
     const std::int64_t few = fastest.resolve(settings).global_iterations;
-    settings.order = ResolutionOrder::arbitrary;
+    settings.resolution = ResolutionKind::arbitrary_order;
     const std::int64_t many = arbitrary.resolve(settings).global_iterations;
     EXPECT_GT(arbitrary.smallestDelta(), -1.001e-4);
     EXPECT_GT(many, few);  // §5.4
@@ -232,8 +232,8 @@ TEST(ImpulseQueue, TakesTheLatestClosingContactInArbitraryOrder) {
     std::size_t latest = pile.contacts.size() - 1;
     while (pile.delta(pile.contacts[latest]) >= -1e-9) --latest;
     ResolutionSettings settings = exactSettings();
-    settings.order = ResolutionOrder::arbitrary;
-    settings.global_iterations = 1e-3;
+    settings.resolution = ResolutionKind::arbitrary_order;
+    settings.iterations = 1e-3;
     pile.resolve(settings);
     for (std::size_t i = 0; i < pile.contacts.size(); ++i) EXPECT_EQ(pile.contacts[i].impulse.norm() > 0, i == latest);
 }
@@ -270,14 +270,13 @@ TEST(ImpulseQueue, LeavesAFixedBodyAsItIs) {
 TEST(ImpulseQueue, EndsAndSparesTheNeighboursWhenABodyIsNotFinite) {
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                              -std::numeric_limits<double>::infinity()}) {
-        for (const std::int64_t queue_switch : {always_array, always_tournament}) {
+        for (const std::size_t queue_switch : {always_array, always_tournament}) {
             Pile pile = latticePile(3, 3);
             const BodyIndex culprit = 14;  // the centre
             pile.v[culprit] = Vec3(0, 0, bad);
             ResolutionSettings settings = exactSettings();
             settings.resolution_threshold = 1e-4;
-            settings.queue_switch = queue_switch;
-            EXPECT_LT(pile.resolve(settings).global_iterations, 100000);
+            EXPECT_LT(resolveWith({.queue_switch = queue_switch}, pile, settings).global_iterations, 100000);
             for (BodyIndex i = 0; i < pile.kind.size(); ++i) {
                 EXPECT_EQ(pile.v[i].allFinite() && pile.w[i].allFinite(), i != culprit) << "body " << i;
             }
@@ -289,7 +288,7 @@ TEST(ImpulseQueue, HasNoMemoryOfTheBatchBefore) {
     const std::unique_ptr<Resolution> used = makeResolution(ResolutionKind::impulse_queue);
     ResolutionSettings settings;
     settings.resolution = ResolutionKind::impulse_queue;
-    settings.global_iterations = 0.5;
+    settings.iterations = 0.5;
     for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
         Pile fresh = randomPile(seed, 100 / seed, 300 / seed, 2);
         Pile again = fresh;

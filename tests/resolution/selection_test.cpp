@@ -12,20 +12,20 @@ using test::Pile;
 
 constexpr double wake_speed = 0.01;  // [m/s]
 
-ResolutionSettings holdingSleepers(double speed = wake_speed) {
+ResolutionSettings holdingSleepers() {
     ResolutionSettings settings = test::exactSettings();
     settings.resolution = ResolutionKind::accelerated_sweeps;
     settings.restitution_threshold = 0.05;
     settings.iterations = 1000;
     settings.tolerance = 0;
-    settings.sweep_tolerance = 1e-12;
-    settings.wake_speed = speed;
+    settings.resolution_threshold = 1e-10;
     return settings;
 }
 
 /// Balls of 1 kg in a row along x, all asleep but the first.
 Pile row(int balls) {
     Pile pile;
+    pile.wake_speed = wake_speed;
     for (int i = 0; i < balls; ++i) {
         const BodyIndex ball = pile.addSphere(Vec3(i, 0, 0));
         pile.asleep[ball] = ball == 0 ? 0 : 1;
@@ -58,7 +58,8 @@ TEST(Selection, WhatIsTooSlowToWakeAnythingStops) {
 TEST(Selection, WithoutAWakeSpeedAllAreResolved) {
     Pile pile = row(40);
     pile.v[0] = Vec3(0.002, 0, 0);
-    pile.resolve(holdingSleepers(0));
+    pile.wake_speed = 0;
+    pile.resolve(holdingSleepers());
     EXPECT_EQ(sleepersOf(pile), 0);
     EXPECT_NEAR(pile.momentum().x(), 0.002, 1e-12);
 }

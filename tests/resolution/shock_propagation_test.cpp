@@ -48,18 +48,17 @@ Pile pyramid(double speed) {
     return pile;
 }
 
-/// A few global iterations, then shock propagation without a limit.
+/// A few global iterations, then shock propagation.
 ResolutionSettings fewGlobalIterations() {
     ResolutionSettings settings;
     settings.resolution = ResolutionKind::impulse_queue;
     settings.resolution_threshold = 1e-6;
-    settings.global_iterations = 0.5;
-    settings.shock_iterations = 0;
+    settings.iterations = 0.5;
     return settings;
 }
 
-/// Runs both parts by hand to see the stages.
-ShockOutcome shockAlone(Pile& pile, const ResolutionSettings& settings) {
+/// Runs shock propagation by hand to see the stages. @param limit of a stage as a multiple of its contacts; 0 = none
+ShockOutcome shockAlone(Pile& pile, const ResolutionSettings& settings, double limit = 0) {
     std::vector<BodyIndex> bodies;
     for (BodyIndex i = 0; i < pile.kind.size(); ++i) {
         if (pile.kind[i] == BodyKind::dynamic) bodies.push_back(i);
@@ -67,16 +66,16 @@ ShockOutcome shockAlone(Pile& pile, const ResolutionSettings& settings) {
     std::vector<std::uint32_t> indices(pile.contacts.size());
     std::iota(indices.begin(), indices.end(), 0U);
     const BatchView view{bodies, indices};
-    QueueSolver solver;
+    QueueSolver solver(QueueConstants{}.queue_switch);
     solver.begin(view, pile.contacts, pile.state(), settings);
-    const ShockOutcome outcome = ShockPropagation().run(solver, settings.shock_iterations);
+    const ShockOutcome outcome = ShockPropagation().run(solver, limit);
     solver.batch.scatter(view, pile.contacts, pile.state());
     return outcome;
 }
 
 TEST(ShockPropagation, MakesATowersContactsNonClosing) {
     Pile pile = tower(10, 0.05);
-    const ResolutionCounts counts = pile.resolve(fewGlobalIterations());
+    const ResolutionCounts counts = resolveWith({.shock_iterations = 0}, pile, fewGlobalIterations());
     EXPECT_EQ(counts.shock_batches, 1);
     EXPECT_GT(counts.shock_iterations, 0);
     EXPECT_EQ(counts.global_iterations, 20);
@@ -125,14 +124,14 @@ TEST(ShockPropagation, LetsNothingAboveMoveWhatIsDone) {
     Pile pile = tower(2, 0);
     pile.v[2] = Vec3(0, 0, -1);
     ResolutionSettings settings = fewGlobalIterations();
-    settings.shock_iterations = 0.125;  // one iteration per stage: the upper box pushes the lower one
-    const ShockOutcome outcome = shockAlone(pile, settings);
+    // One iteration per stage: the upper box pushes the lower one.
+    const ShockOutcome outcome = shockAlone(pile, settings, 0.125);
     EXPECT_EQ(outcome.stages, 2);
     EXPECT_EQ(outcome.iterations, 2);
     // Stage 0: one corner of the contact between the boxes. Stage 1: another corner against an immovable lower box.
     Pile by_hand = tower(2, 0);
     by_hand.v[2] = Vec3(0, 0, -1);
-    settings.global_iterations = 1e-3;
+    settings.iterations = 1e-3;
     settings.shock_propagation = false;
     by_hand.resolve(settings);
     EXPECT_EQ(pile.v[1], by_hand.v[1]);
@@ -156,7 +155,7 @@ Pile ballBelowAHeavyOne(double speed, double heavy) {
 
 ResolutionSettings oneGlobalIteration() {
     ResolutionSettings settings = fewGlobalIterations();
-    settings.global_iterations = 0.1;
+    settings.iterations = 0.1;
     return settings;
 }
 
@@ -178,7 +177,7 @@ TEST(ShockPropagation, TakesNoEnergyFromWhatItFreezesInMotion) {
 TEST(ShockPropagation, KeepsAllItDoesWhereTheEnergyAllowsIt) {
     Pile pile = ballBelowAHeavyOne(10, 1);
     Pile alone = pile;
-    pile.resolve(oneGlobalIteration());
+    resolveWith({.shock_iterations = 0}, pile, oneGlobalIteration());
     alone.v[1] = alone.v[2] = Vec3(0, 0, 5);
     shockAlone(alone, oneGlobalIteration());
     for (BodyIndex i = 1; i <= 3; ++i) {
@@ -191,7 +190,7 @@ TEST(ShockPropagation, IsSkippedWhenTheGlobalResolutionFinishes) {
     Pile pile = tower(3, 0.05);
     Pile without = pile;
     ResolutionSettings settings = fewGlobalIterations();
-    settings.global_iterations = 0;
+    settings.iterations = 0;
     const ResolutionCounts counts = pile.resolve(settings);
     EXPECT_EQ(counts.shock_batches, 0);
     EXPECT_EQ(counts.shock_iterations, 0);
@@ -206,7 +205,7 @@ TEST(ShockPropagation, IsSkippedWhenTheLimitIsReachedWithNothingLeft) {
     pile.v[ball] = Vec3(0, 0, -1);
     pile.touch(ground, ball, Vec3::Zero(), -Vec3::UnitZ());
     ResolutionSettings settings = fewGlobalIterations();
-    settings.global_iterations = 1;
+    settings.iterations = 1;
     const ResolutionCounts counts = pile.resolve(settings);
     EXPECT_EQ(counts.global_iterations, 1);
     EXPECT_EQ(counts.shock_batches, 0);
@@ -216,7 +215,7 @@ TEST(ShockPropagation, IsSkippedWithoutFixedBodies) {
     Pile pile = randomPile(4, 30, 90, 0);
     const Vec3 momentum = pile.momentum();
     ResolutionSettings settings = fewGlobalIterations();
-    settings.global_iterations = 0.2;
+    settings.iterations = 0.2;
     const ResolutionCounts counts = pile.resolve(settings);
     EXPECT_EQ(counts.global_iterations, 18);
     EXPECT_LT(pile.smallestDelta(), -1e-6);
@@ -251,9 +250,7 @@ TEST(ShockPropagation, RestoresTheMasses) {
 
 TEST(ShockPropagation, KeepsToItsOwnLimitInEveryStage) {
     Pile pile = tower(10, 0.05);
-    ResolutionSettings settings = fewGlobalIterations();
-    settings.shock_iterations = 0.5;
-    const ShockOutcome outcome = shockAlone(pile, settings);
+    const ShockOutcome outcome = shockAlone(pile, fewGlobalIterations(), 0.5);
     EXPECT_EQ(outcome.stages, 10);
     EXPECT_LE(outcome.iterations, 9 * 4 + 2);  // half of eight contacts per box, of four for the highest one
     EXPECT_GT(outcome.iterations, 10);

@@ -8,7 +8,7 @@ namespace {
 ResolutionSettings sweepSettings() {
     ResolutionSettings settings = exactSettings();
     settings.resolution = ResolutionKind::sweep;
-    settings.sweeps = 10000;
+    settings.iterations = 10000;
     return settings;
 }
 
@@ -72,7 +72,7 @@ TEST(Sweep, GoesThroughTheContactsInAscendingOrder) {
     for (BodyIndex i = 0; i < 4; ++i) pile.touch(i, i + 1, Vec3(i + 0.5, 0, 0), -Vec3::UnitX(), 1);
     pile.v[0] = Vec3(1, 0, 0);
     ResolutionSettings settings = sweepSettings();
-    settings.sweeps = 1;
+    settings.iterations = 1;
     EXPECT_EQ(pile.resolve(settings).global_iterations, 4);
     EXPECT_TRUE(pile.v[4].isApprox(Vec3(1, 0, 0), 1e-14));
     // Struck from the right it takes a sweep per ball.
@@ -97,11 +97,11 @@ TEST(Sweep, StopsAfterItsSweepsAndWakesWhatItResolves) {
     pile.v[4].setZero();
     pile.asleep[4] = 1;
     ResolutionSettings settings = sweepSettings();
-    settings.sweeps = 1;
+    settings.iterations = 1;
     const ResolutionCounts counts = pile.resolve(settings);
     EXPECT_GT(counts.global_iterations, 0);
     EXPECT_LE(counts.global_iterations, 5);
-    settings.sweeps = 100;
+    settings.iterations = 100;
     pile.v[2] = Vec3(0, 0, 1);  // up against the sleeping ball
     pile.resolve(settings);
     EXPECT_EQ(pile.woken[4], WakeReason::struck);

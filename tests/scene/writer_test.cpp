@@ -58,7 +58,7 @@ Scene fullScene() {
     scene.settings = {{"sleeping", false},
                       {"threads", std::int64_t{2}},
                       {"correction", std::string("none")},
-                      {"global_iterations", 2.0},
+                      {"iterations", 2.0},
                       {"contact_margin", 1e-4}};
     return scene;
 }

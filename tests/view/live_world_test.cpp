@@ -105,7 +105,7 @@ TEST(LiveWorld, TheDialGoesFromPresetToPreset) {
     EXPECT_EQ(world.dial(), std::nullopt);
     EXPECT_THROW(world.setField({"damping", 7.0}), InputError);
     EXPECT_THROW(world.setField({"no_such_field", 7.0}), InputError);
-    EXPECT_EQ(world.world().settings().gravity_damping.damping, 0.1);
+    EXPECT_EQ(world.world().settings().sleep.damping, 0.1);
 }
 
 TEST(LiveWorld, ChangingThreadsKeepsTheDial) {

@@ -186,7 +186,7 @@ TEST(Sensors, SeeWhatTheirGroupsTouchOnly) {
 
 TEST(OwnGravity, FactorsScaleTheFall) {
     Settings settings = Settings::preset(Preset::performance);
-    settings.gravity_damping.damping_threshold = 0;
+    settings.sleep.damping = 0;
     FilteredFloor f(settings);
     const BodyId falls = f.ball({0, 0, 50});
     const BodyId floats = f.ball({1, 0, 50});

@@ -14,7 +14,7 @@ Settings withAccounts() {
     Settings settings = Settings::preset(Preset::performance);
     settings.diagnostics.diagnostics = true;
     settings.sleep.sleeping = false;
-    settings.gravity_damping.damping_threshold = 0;
+    settings.sleep.damping = 0;
     return settings;
 }
 

@@ -184,7 +184,7 @@ TEST(WorldJoints, BreakAtTheirForceAndSayIt) {
         const BodyId box = s.box({0, 0, 1});
         const double weight = 10 * s.world.mass(box);
         Settings settings = s.world.settings();
-        settings.gravity_damping.damping = 0;
+        settings.sleep.damping = 0;
         s.world.setSettings(settings);
         const JointId joint = s.world.addJoint({.kind = JointKind::fixed, .a = box, .break_force = strength * weight});
         std::vector<Event> broke;
@@ -282,7 +282,7 @@ TEST_P(JointedSleepers, SleepOnInSilence) {
     s.run(1000);
     ASSERT_EQ(s.world.statistics().asleep, 3);
     const Vec3 impulse = s.world.joint(hook).impulse;
-    const double part = 1 - s.world.settings().gravity_damping.damping;
+    const double part = 1 - s.world.settings().sleep.damping;
     EXPECT_GE(impulse.z(), 0.99 * part * 6.4 * 10 * s.world.settings().timeStep()) << "bears the lamp";
     s.world.setEventLevel(EventLevel::changes);
     for (int i = 0; i < 20; ++i) {

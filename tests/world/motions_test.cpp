@@ -14,7 +14,7 @@ Settings measured() {
     settings.diagnostics.diagnostics = true;
     // What holding and sleeping take stands on no account, and damping depends on the frame.
     settings.sleep.sleeping = false;
-    settings.gravity_damping.damping_threshold = 0;
+    settings.sleep.damping = 0;
     return settings;
 }
 
@@ -157,7 +157,6 @@ TEST(Motion, BaseExcitationAgreesWithInertialForces) {
     const SineMotion law{.amplitude = {0.02, 0.01, 0}, .frequency = 3, .phase = std::numbers::pi / 2};
     Settings settings = measured();
     settings.resolution.resolution_threshold = 1e-13;
-    settings.resolution.sweep_tolerance = 1e-14;
     settings.resolution.iterations = 1000;
     settings.resolution.tolerance = 0;
     MovedTable shaken(settings);

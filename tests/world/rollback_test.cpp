@@ -107,7 +107,6 @@ std::vector<Call> everyCall() {
              s.steps_per_second = 300;
              s.parallel.threads = 2;
              s.resolution.resolution = ResolutionKind::sweep;
-             s.detection.broad_phase = BroadPhaseKind::all_pairs;
              s.correction.correction = CorrectionKind::none;
              y.world.setSettings(s);
          }},

@@ -28,7 +28,7 @@ inline Settings granularSettings(double rate = 480) {
     Settings settings = Settings::preset(Preset::performance, rate, g);
     settings.correction.penetration_threshold = 1e-3;
     settings.sleep.sleeping = false;
-    settings.gravity_damping.damping = 0;
+    settings.sleep.damping = 0;
     return settings;
 }
 

@@ -4,7 +4,7 @@ import { h, readable, setText } from './dom';
 
 const stageTitles: Record<string, string> = {
   world: 'Time step', time: 'Time step', detection: 'Contact detection', correction: 'Penetration correction', resolution: 'Contact resolution',
-  sleep: 'Sleeping', gravity_damping: 'Gravity damping', integration: 'Integration', parallel: 'Threads',
+  sleep: 'Sleeping', integration: 'Integration', parallel: 'Threads',
 };
 
 export interface SettingsActions {

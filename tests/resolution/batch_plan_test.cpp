@@ -1,0 +1,47 @@
+/// Which batches take direct steps.
+#include "resolution/batch_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "resolution/batch_fixture.h"
+
+namespace cairn {
+namespace {
+
+/// Balls at rest in a chain, of which so many touch another one besides, a third of the chain away.
+bool mayLeap(BodyIndex balls, BodyIndex loops, double speed = 0) {
+    test::Pile pile;
+    for (BodyIndex i = 0; i < balls; ++i) pile.addSphere(Vec3(i, 0, 0));
+    for (BodyIndex i = 0; i + 1 < balls; ++i) {
+        pile.touch(i, i + 1, Vec3(i + 0.5, 0, 0), -Vec3::UnitX());
+        if (i < loops) pile.touch(i, i + balls / 3, Vec3(i, 0, 0), -Vec3::UnitX());
+    }
+    pile.v[0] = Vec3(speed, 0, 0);
+    std::vector<BodyIndex> bodies(balls);
+    std::iota(bodies.begin(), bodies.end(), 0U);
+    std::vector<std::uint32_t> indices(pile.contacts.size());
+    std::iota(indices.begin(), indices.end(), 0U);
+    return kindOf({bodies, indices, {}}, pile.contacts, pile.state(), {}).may_leap;
+}
+
+TEST(BatchPlan, ChainsAtRestTakeDirectStepsHoweverLongTheyAre) {
+    EXPECT_TRUE(mayLeap(100, 0));
+    EXPECT_TRUE(mayLeap(100'000, 0));
+    EXPECT_FALSE(mayLeap(100, 0, 10));
+}
+
+TEST(BatchPlan, NoDirectStepsWhereMorePairsTouchThanInStacks) {
+    EXPECT_TRUE(mayLeap(120, 61)) << "1.5 pairs per body";
+    EXPECT_FALSE(mayLeap(120, 62));
+}
+
+TEST(BatchPlan, NoDirectStepsWhereLoopsMayMakeTheFactorDense) {
+    // With n loops at most a third of them make a dense block, whose n³/162 products may be 25 per contact.
+    EXPECT_TRUE(mayLeap(1000, 167));
+    EXPECT_FALSE(mayLeap(1000, 168));
+}
+
+}  // namespace
+}  // namespace cairn
