@@ -9,6 +9,7 @@ Settings accurateSettings(double steps_per_second, ResolutionKind resolver) {
     settings.integration.exact_flight = true;
     settings.sleep.sleeping = false;
     settings.resolution.resolution = resolver;
+    if (resolver == ResolutionKind::impulse_queue) settings.resolution.iterations = 0;
     if (resolver == ResolutionKind::accelerated_sweeps) {
         settings.resolution.iterations = 1000;
         settings.resolution.tolerance = 0;

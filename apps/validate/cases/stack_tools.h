@@ -116,6 +116,8 @@ inline Settings performanceSettings(ResolutionKind resolver) {
     Settings settings = Settings::preset(Preset::performance, 240, g);
     settings.sleep.sleeping = false;
     settings.resolution.resolution = resolver;
+    // The thesis's: shock propagation does the rest.
+    if (resolver == ResolutionKind::impulse_queue) settings.resolution.iterations = 2;
     return settings;
 }
 
