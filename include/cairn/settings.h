@@ -76,7 +76,7 @@ struct ResolutionSettings {
     /// this part of how its contacts move, 0 to 1: exactly where it lies still. Less is left where bodies are in each
     /// other deeper than allowed. 0 = until a sweep changes no contact by more than a hundredth of
     /// resolution_threshold.
-    double tolerance = 0.25;
+    double tolerance = 0.15;
     bool shock_propagation = true;  ///< of impulse_queue: Algorithm 10, when iterations left contacts closing
 };
 

@@ -13,6 +13,10 @@ namespace {
 /// overlap, cannot get far into another one.
 constexpr double least_way = 0.01;
 
+/// A body that ends within this multiple of the overlap that it is allowed from where it was foreseen is left alone:
+/// what it may overlap there is for the correction.
+constexpr double least_stroke = 3;
+
 MovingShape movingShape(const BodyStorage& bodies, BodyIndex i, const BodyAhead* ahead) {
     MovingShape shape{bodies.shape[i], bodies.shapePose(i), bodies.position[i]};
     if (ahead == nullptr) return shape;
@@ -37,6 +41,7 @@ void lookAhead(const BodyStorage& bodies, const DetectionRange& range, BodyIndex
     const Foresight& foresight = range.foresight;
     ahead.way = ahead.now;
     ahead.v = bodies.v[i];
+    ahead.w = bodies.w[i];
     ahead.turning = 0;
     ahead.reach = 0;
     if (foresight.time == 0 || bodies.asleep[i] != 0) return;
@@ -52,6 +57,14 @@ void lookAhead(const BodyStorage& bodies, const DetectionRange& range, BodyIndex
     ahead.way = ahead.now.grown(turned);
     ahead.way.lower += way.cwiseMin(0);
     ahead.way.upper += way.cwiseMax(0);
+}
+
+bool isStruck(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, const BodyAhead& ahead) {
+    if (bodies.kind[i] != BodyKind::dynamic || bodies.asleep[i] != 0) return false;
+    const double r_max = bodies.r_max[i];
+    const double least = least_stroke * range.overlapOf(bodies.r_min[i], bodies.r_min[i]) / range.foresight.time;
+    const double off = (bodies.v[i] - ahead.v).norm() + (bodies.w[i] - ahead.w).norm() * r_max;
+    return off > least && bodies.v[i].norm() + bodies.w[i].norm() * r_max > least;
 }
 
 bool PairAhead::wouldMeet() const {
@@ -99,6 +112,34 @@ bool PairAhead::closes(const Vec3& point, const Vec3& normal, double distance) c
     const double of_a = -along(a_, pair_.a);
     const double of_b = along(b_, pair_.b);
     return distance < range_.foresight.time * std::max({of_a + of_b, of_a, of_b});
+}
+
+void PairAhead::forEachAtEnd(Manifold& manifold, FunctionRef<void(const Vec3&, const Vec3&, double)> use) const {
+    const double depth = range_.overlapOf(bodies_.r_min[pair_.a], bodies_.r_min[pair_.b]);
+    const double time = range_.foresight.time;
+    const auto end = [&](BodyIndex i, const BodyAhead& ahead) {
+        return ahead.reach > 0 ? poseAfter(bodies_, i, ahead, time) : bodies_.shapePose(i);
+    };
+    const auto back = [&](BodyIndex i, const BodyAhead& ahead, const Vec3& point) -> Vec3 {
+        if (!(ahead.reach > 0)) return point;
+        const Vec3 lever = point - (bodies_.position[i] + bodies_.v[i] * time);
+        return bodies_.position[i] + fromRotationVector(bodies_.w[i] * time).conjugate() * lever;
+    };
+    const auto look = [&](const Manifold& found) {
+        for (std::size_t k = 0; k < found.size; ++k) {
+            const auto& [place, distance, triangle] = found.points[k];
+            if (!(distance < -depth)) continue;
+            const Vec3 point = (back(pair_.a, a_, place) + back(pair_.b, b_, place)) / 2;
+            const auto velocity = [&](BodyIndex i) -> Vec3 {
+                return bodies_.v[i] + bodies_.w[i].cross(point - bodies_.position[i]);
+            };
+            const double closing = found.normal.dot(velocity(pair_.a) - velocity(pair_.b));
+            // Those that part were closer before: where they are now is for the correction.
+            if (closing < 0) use(point, found.normal, distance - closing * time);
+        }
+    };
+    forEachManifold(bodies_.shape[pair_.a], end(pair_.a, a_), bodies_.shape[pair_.b], end(pair_.b, b_), 0, manifold,
+                    look);
 }
 
 }  // namespace cairn

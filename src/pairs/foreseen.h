@@ -7,6 +7,8 @@
 
 #include "body/body_storage.h"
 #include "broad_phase/broad_phase.h"
+#include "narrow_phase/narrow_phase.h"
+#include "parallel/function_ref.h"
 
 namespace cairn {
 
@@ -41,12 +43,17 @@ struct BodyAhead {
     Bounds now;             ///< grown by the contact margin [m, W]
     Bounds way;             ///< of all places from now until then [m, W]
     Vec3 v = Vec3::Zero();  ///< with what gravity adds [m/s, W]
+    Vec3 w = Vec3::Zero();  ///< [rad/s, W]
     double turning = 0;     ///< largest speed of a surface point about the centre, 0 for a ball [m/s]
     double reach = 0;       ///< largest way of a surface point [m]; 0 if it is no more than a small part of the body
 };
 
 /// Fills in all but the bounds of now. @pre ahead.now
 void lookAhead(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, BodyAhead& ahead);
+
+/// Whether a body, with the velocities that it has after the resolution, ends the step so far from where it was
+/// foreseen that others may be in the way there. @param ahead what was foreseen
+bool isStruck(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, const BodyAhead& ahead);
 
 /// Which contacts of one pair a detection reports.
 class PairAhead {
@@ -69,6 +76,10 @@ class PairAhead {
     /// Whether they close fast enough, likewise, to touch in a point that is apart now.
     /// @param normal from B to A @param distance [m]
     bool closes(const Vec3& point, const Vec3& normal, double distance) const;
+    /// Calls use(point, normal, distance) for where the bodies overlap by more than they are allowed to when the step
+    /// ends, if nothing stops them: the place now, the direction then, and the distance from which the velocities
+    /// that they have now lead there [m, W].
+    void forEachAtEnd(Manifold& manifold, FunctionRef<void(const Vec3&, const Vec3&, double)> use) const;
 
   private:
     bool meetsWith(const BodyAhead* a, const BodyAhead* b, double depth) const;

@@ -52,6 +52,7 @@ void requireContacts(std::size_t count) {
 void FoundContacts::clear() {
     found.clear();
     pieces.clear();
+    grown.clear();
     count = pair_begin = pair_end = 0;
 }
 

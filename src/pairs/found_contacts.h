@@ -40,8 +40,14 @@ struct FoundContacts {
         std::uint32_t count;
         bool stays;  ///< they are those of the last detection
     };
+    /// A pair that got contacts behind those that it had.
+    struct Grown {
+        std::size_t pair;     ///< its index
+        std::uint32_t count;  ///< of the new contacts
+    };
     std::vector<FoundContact> found;
     std::vector<Piece> pieces;
+    std::vector<Grown> grown;
     std::size_t count = 0;                     ///< of all pieces
     std::size_t pair_begin = 0, pair_end = 0;  ///< the pairs that the thread tests
 

@@ -62,6 +62,36 @@ void collidePair(const BodyStorage& bodies, const BodyPair& pair, const Detectio
     if (foreseen && !would_meet && !ahead.wouldMeet()) contacts.resize(first);
 }
 
+/// Appends the contacts that keep the bodies of one pair apart and that it does not have yet: those that would be found
+/// with the velocities of now, and those of the places where the bodies overlap in the end all the same, since they
+/// turn other sides to each other. @param known that the pair has
+void findMissing(const BodyStorage& bodies, const BodyPair& pair, const DetectionRange& range, const PairAhead& ahead,
+                 Manifold& manifold, std::span<const Contact> known, std::vector<FoundContact>& contacts) {
+    const std::size_t first = contacts.size();
+    collidePair(bodies, pair, range, ahead, manifold, contacts);
+    const double size = std::min(bodies.r_max[pair.a], bodies.r_max[pair.b]);
+    const auto isKnown = [&](const FoundContact& found) {
+        return std::ranges::any_of(known, [&](const Contact& c) {
+            const double apart = (c.point - found.point).squaredNorm() + squaredTurn(c.normal, found.normal, size);
+            return apart <= same_at_once * same_at_once * size * size;
+        });
+    };
+    contacts.erase(std::remove_if(contacts.begin() + static_cast<std::ptrdiff_t>(first), contacts.end(), isKnown),
+                   contacts.end());
+    if (!ahead.isAny()) return;
+    const double allowed_overlap = range.overlapOf(bodies.r_min[pair.a], bodies.r_min[pair.b]);
+    ahead.forEachAtEnd(manifold, [&](const Vec3& point, const Vec3& normal, double distance) {
+        const auto isSame = [&](const auto& c) {
+            const double apart = (c.point - point).squaredNorm() + size * size * (c.normal - normal).squaredNorm();
+            return apart < same_at_end * same_at_end * size * size;
+        };
+        if (std::ranges::any_of(known, isSame)) return;
+        if (std::ranges::any_of(std::span(contacts).subspan(first), isSame)) return;
+        const double gap = std::max(0.0, distance);
+        appendTightly(contacts, {pair.a, pair.b, point, normal, gap, allowed_overlap, gap / range.foresight.time});
+    });
+}
+
 /// Whether one of two bodies can move and neither filters nor joints keep them from touching. @param excluded sorted
 bool mayTouch(const BodyStorage& bodies, std::span<const BodyPair> excluded, const BodyPair& pair) {
     const auto [a, b] = std::pair(bodies.kind[pair.a], bodies.kind[pair.b]);
@@ -93,18 +123,10 @@ void PairTable::detect(const PairsInput& input, std::vector<Contact>& contacts) 
     BodyStorage& bodies = input.bodies;
     findUnmoved(input);
     findBounds(input);
-    near_pairs_.update({bodies.kind, bounds_, bodies.v, unmoved_}, input.broad_phase, input.executor);
     parts_.resize(static_cast<std::size_t>(input.executor.threads()));
+    near_pairs_.update({bodies.kind, bounds_, bodies.v, unmoved_}, input.broad_phase, input.executor);
     for (FoundContacts& part : parts_) part.clear();
-    input.executor.forBlocks(
-        pairs().size(),
-        [&](std::size_t begin, std::size_t end, int thread) {
-            FoundContacts& part = parts_[static_cast<std::size_t>(thread)];
-            part.pair_begin = begin;
-            part.pair_end = end;
-            detectPairs(input, contacts, part);
-        },
-        pair_grain);
+    forParts(input.executor, [&](FoundContacts& part) { detectPairs(input, contacts, part); });
     addFirst(input.executor);
     joiner_.join(bodies, input.materials, input.executor, parts_, contacts);
     input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
@@ -114,6 +136,28 @@ void PairTable::detect(const PairsInput& input, std::vector<Contact>& contacts) 
         }
     });
     known_ = true;
+}
+
+void PairTable::followStruck(const PairsInput& input, std::vector<Contact>& contacts,
+                             std::vector<std::uint32_t>& added) {
+    added.clear();
+    DetectionRange range = range_;
+    // The velocities have it by now.
+    range.foresight.fall.setZero();
+    if (!findStruck(input, range)) return;
+    near_pairs_.update({input.bodies.kind, bounds_, input.bodies.v, unmoved_}, input.broad_phase, input.executor);
+    for (FoundContacts& part : parts_) part.clear();
+    forParts(input.executor, [&](FoundContacts& part) { followPairs(input, range, contacts, part); });
+    if (std::ranges::all_of(parts_, [](const FoundContacts& part) { return part.grown.empty(); })) return;
+    forParts(input.executor, [&](FoundContacts& part) { addGrown(part); });
+    addFirst(input.executor);
+    for (const FoundContacts& part : parts_) {
+        for (const FoundContacts::Grown& grown : part.grown) {
+            const ContactPair& pair = pairs()[grown.pair];
+            for (std::uint32_t i = pair.count - grown.count; i < pair.count; ++i) added.push_back(pair.first + i);
+        }
+    }
+    joiner_.join(input.bodies, input.materials, input.executor, parts_, contacts);
 }
 
 void PairTable::adopt(std::span<const Contact> contacts) {
@@ -159,6 +203,74 @@ void PairTable::findBounds(const PairsInput& input) {
             bounds_[i] = ahead_[i].way;
         }
     });
+}
+
+/// Divides the pairs into parts, one per thread. @param work called with a part
+template <class Work>
+void PairTable::forParts(const Executor& executor, const Work& work) {
+    executor.forBlocks(
+        pairs().size(),
+        [&](std::size_t begin, std::size_t end, int thread) {
+            FoundContacts& part = parts_[static_cast<std::size_t>(thread)];
+            part.pair_begin = begin;
+            part.pair_end = end;
+            work(part);
+        },
+        pair_grain);
+}
+
+/// Looks ahead once more for the bodies that were struck, from where they are. @return whether there are any
+bool PairTable::findStruck(const PairsInput& input, const DetectionRange& range) {
+    const BodyStorage& bodies = input.bodies;
+    struck_.resize(bodies.slots());
+    input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
+        for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
+            const bool struck = isStruck(bodies, range, i, ahead_[i]);
+            struck_[i] = struck ? 1 : 0;
+            unmoved_[i] = struck ? 0 : 1;
+            if (!struck) continue;
+            lookAhead(bodies, range, i, ahead_[i]);
+            // What was found for the way foreseen stays.
+            bounds_[i].lower = bounds_[i].lower.cwiseMin(ahead_[i].way.lower);
+            bounds_[i].upper = bounds_[i].upper.cwiseMax(ahead_[i].way.upper);
+        }
+    });
+    return std::ranges::find(struck_, 1) != struck_.end();
+}
+
+/// Finds what each pair with a struck body lacks to keep the two apart. @param part in: its pairs; out: what was found
+void PairTable::followPairs(const PairsInput& input, const DetectionRange& range, std::span<const Contact> contacts,
+                            FoundContacts& part) {
+    const BodyStorage& bodies = input.bodies;
+    Manifold manifold;
+    for (std::size_t n = part.pair_begin; n < part.pair_end; ++n) {
+        const ContactPair& pair = pairs()[n];
+        if ((struck_[pair.a] | struck_[pair.b]) == 0 || !ahead_[pair.a].way.overlaps(ahead_[pair.b].way)) continue;
+        if (!mayTouch(bodies, input.excluded, pair)) continue;
+        const auto known = pair.touches() ? contacts.subspan(pair.first, pair.count) : std::span<const Contact>();
+        const std::size_t begin = part.found.size();
+        findMissing(bodies, pair, range, {bodies, range, pair, ahead_}, manifold, known, part.found);
+        if (part.found.size() == begin) continue;
+        part.grown.push_back({n, static_cast<std::uint32_t>(part.found.size() - begin)});
+    }
+}
+
+/// Puts what was found behind the contacts of its pairs.
+void PairTable::addGrown(FoundContacts& part) {
+    auto grown = part.grown.begin();
+    std::size_t begin = 0;
+    for (std::size_t n = part.pair_begin; n < part.pair_end; ++n) {
+        ContactPair& pair = near_pairs_.pairs()[n];
+        const std::size_t first = part.count;
+        if (pair.touches()) part.add(pair.first, pair.count, true);
+        pair.first = static_cast<std::uint32_t>(first);
+        if (grown == part.grown.end() || grown->pair != n) continue;
+        part.add(begin, grown->count, false);
+        begin += grown->count;
+        pair.count = (pair.touches() ? pair.count : 0) + grown->count;
+        pair.ahead = true;
+        ++grown;
+    }
 }
 
 /// @param part in: its pairs; out: what was found of them

@@ -39,6 +39,11 @@ class PairTable {
     ///        reference_impulse; out: sorted by (a, b) @throws InputError beyond most_contacts
     void detect(const PairsInput& input, std::vector<Contact>& contacts);
 
+    /// Finds the contacts that nobody foresaw, since a body of theirs was struck by the resolution, and adds them
+    /// behind those of their pairs. @pre detect() was the last call, and it looked ahead
+    /// @param contacts with impulses, which they keep @param added out: indices of the new ones, ascending
+    void followStruck(const PairsInput& input, std::vector<Contact>& contacts, std::vector<std::uint32_t>& added);
+
     /// To be called when contacts would be others though no body moved: all are found anew.
     void forgetContacts() { known_ = false; }
     /// To be called when bodies and contacts are others: all pairs are those of the contacts.
@@ -56,7 +61,13 @@ class PairTable {
   private:
     void findUnmoved(const PairsInput& input);
     void findBounds(const PairsInput& input);
+    template <class Work>
+    void forParts(const Executor& executor, const Work& work);
     void detectPairs(const PairsInput& input, std::span<const Contact> last, FoundContacts& part);
+    bool findStruck(const PairsInput& input, const DetectionRange& range);
+    void followPairs(const PairsInput& input, const DetectionRange& range, std::span<const Contact> contacts,
+                     FoundContacts& part);
+    void addGrown(FoundContacts& part);
     void addFirst(const Executor& executor);
 
     NearPairs near_pairs_;
@@ -66,6 +77,7 @@ class PairTable {
     DetectionRange range_;               ///< of the last detection
     std::vector<BodyAhead> ahead_;       ///< [slots]
     std::vector<std::uint8_t> unmoved_;  ///< [slots] 1 = contacts with others of these are known
+    std::vector<std::uint8_t> struck_;   ///< [slots] 1 = the resolution sent it elsewhere than foreseen
     std::vector<Bounds> bounds_;         ///< [slots]
     std::vector<FoundContacts> parts_;   ///< [threads]
     ContactJoiner joiner_;

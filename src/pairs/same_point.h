@@ -10,6 +10,9 @@ namespace cairn {
 inline constexpr double same_at_once = 1e-3;
 /// … and if they are the nearest ones within this part, when a step is between them.
 inline constexpr double same_after_a_step = 0.1;
+/// Where one is found at the end of a step and the other at its beginning, points within this part keep apart the same
+/// places, if their normals differ by as many radians or less.
+inline constexpr double same_at_end = 0.05;
 
 /// What the normals of two points of a pair add to the squared distance between them [m²]: 2.6° count as much as a
 /// thousandth of the smaller body. @param size largest radius of the smaller body [m]

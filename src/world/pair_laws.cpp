@@ -19,20 +19,25 @@ void apply(const PairLaw& law, const PairProperties& properties, const BodyState
     contact.static_friction = std::max(properties.static_friction, contact.kinetic_friction);
 }
 
+void apply(const WorldState& world, const BodyState& bodies, Contact& contact) {
+    const std::uint32_t a = world.bodies.material[contact.a];
+    const std::uint32_t b = world.bodies.material[contact.b];
+    if (const PairLaw* law = world.materials.law(a, b)) apply(*law, world.materials.pair(a, b), bodies, contact);
+}
+
 }  // namespace
 
 void applyPairLaws(WorldState& world, const BodyState& bodies) {
-    const MaterialTable& materials = world.materials;
-    if (materials.laws().empty()) return;
+    if (world.materials.laws().empty()) return;
     std::vector<Contact>& contacts = world.data.contacts;
-    const FieldArray<std::uint32_t>& material = world.bodies.material;
     world.executor.forBlocks(contacts.size(), [&](std::size_t begin, std::size_t end, int) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::uint32_t a = material[contacts[i].a];
-            const std::uint32_t b = material[contacts[i].b];
-            if (const PairLaw* law = materials.law(a, b)) apply(*law, materials.pair(a, b), bodies, contacts[i]);
-        }
+        for (Contact& contact : std::span(contacts).subspan(begin, end - begin)) apply(world, bodies, contact);
     });
+}
+
+void applyPairLaws(WorldState& world, const BodyState& bodies, std::span<const std::uint32_t> some) {
+    if (world.materials.laws().empty()) return;
+    for (const std::uint32_t i : some) apply(world, bodies, world.data.contacts[i]);
 }
 
 }  // namespace cairn

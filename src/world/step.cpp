@@ -12,6 +12,7 @@
 #include "world/motions.h"
 #include "world/pair_laws.h"
 #include "world/quarantine.h"
+#include "world/resolving.h"
 #include "world/sensors.h"
 #include "world/totals.h"
 #include "world/world_state.h"
@@ -54,21 +55,13 @@ DetectionRange rangeOf(const WorldState& world) {
     return range;
 }
 
-void detect(WorldState& world) {
-    const DetectionRange range = rangeOf(world);
-    world.data.pairs.detect(
-        {world.bodies, world.materials, world.broad_phase, world.data.excluded, range, world.executor},
-        world.data.contacts);
+PairsInput pairsInput(WorldState& world, const DetectionRange& range) {
+    return {world.bodies, world.materials, world.broad_phase, world.data.excluded, range, world.executor};
 }
 
-void buildBatchesStage(WorldState& world) {
-    StepData& data = world.data;
-    buildBatches(world.bodies.kind, data.contacts, data.batch_scratch, data.batches, world.joints);
-    listContacts(world.bodies.kind, data.contacts, data.contacts_of);
-    data.views.resize(data.batches.size());
-    for (std::size_t i = 0; i < data.views.size(); ++i) data.views[i] = data.batches[i];
-    data.schedule.arrange(data.views);
-    if (world.checks != Checks::off) checkBatches(world);
+void detect(WorldState& world) {
+    const DetectionRange range = rangeOf(world);
+    world.data.pairs.detect(pairsInput(world, range), world.data.contacts);
 }
 
 void correctBatches(WorldState& world) {
@@ -139,29 +132,6 @@ void velocityStage(WorldState& world) {
     }
 }
 
-/// What of the batches is left out because it sleeps.
-Selecting selectingOf(const WorldState& world) {
-    const ResolutionKind resolution = world.settings.resolution.resolution;
-    if (resolution == ResolutionKind::none) return Selecting::everything;
-    return resolution == ResolutionKind::accelerated_sweeps ? Selecting::awake_parts : Selecting::awake_batches;
-}
-
-/// Resolves what is awake, and more of it where that disturbs sleepers.
-void resolveChosen(WorldState& world, BodyState& bodies) {
-    StepData& data = world.data;
-    const ResolutionSettings& settings = world.settings.resolution;
-    data.resolution_counts = {};
-    // What would keep a body from falling asleep wakes it.
-    data.selection.begin(
-        {data.views, data.contacts, bodies, selectingOf(world), world.settings.sleep.sleep_threshold, world.executor});
-    bodies.held = data.selection.held();
-    do {
-        data.resolution_counts.add(
-            world.resolution->resolve({data.selection.chosen(), data.contacts, bodies, settings, world.executor}));
-    } while (data.selection.widen());
-    data.selection.finish();
-}
-
 void resolveStage(WorldState& world) {
     StepData& data = world.data;
     BodyState bodies = world.bodies.state();
@@ -179,7 +149,8 @@ void resolveStage(WorldState& world) {
     // Asked before a driven joint may break in this very step.
     const bool weighed = world.checks == Checks::on && mustKeepEnergy(world);
     const double energy = weighed ? kineticEnergyOf(world.bodies) : 0;
-    resolveChosen(world, bodies);
+    const DetectionRange range = rangeOf(world);
+    resolveContacts(world, bodies, pairsInput(world, range));
     finishJoints(world);
     quarantine(world);
     if (weighed) checkEnergy(world, energy);
@@ -261,7 +232,7 @@ void stepWorld(WorldState& world) {
         detect(world);
         findSensed(world);
     });
-    timed(world, Stage::batches, [&] { buildBatchesStage(world); });
+    timed(world, Stage::batches, [&] { batchContacts(world); });
     timed(world, Stage::correction, [&] { correctStage(world); });
     measureIfAsked(world, Measured::correction);
     timed(world, Stage::velocities, [&] { velocityStage(world); });

@@ -11,6 +11,7 @@
 #include "activity/selection.h"
 #include "batches/batches.h"
 #include "batches/schedule.h"
+#include "batches/surroundings.h"
 #include "body/body_storage.h"
 #include "body/contact.h"
 #include "body/material_table.h"
@@ -57,6 +58,12 @@ struct MeasuredData {
     std::vector<Vec3> w;  ///< [slots] at the last point [rad/s, W]
 };
 
+/// Contacts that are resolved once more.
+struct FollowedGroup {
+    BatchView view;
+    bool later;  ///< for an impact that follows the others
+};
+
 /// The arrays that one stage leaves to the next; nothing else travels between stages. Named with their producer.
 struct StepData {
     PairTable pairs;                    ///< detection: which contacts are of which two bodies
@@ -82,6 +89,10 @@ struct StepData {
     std::vector<std::int32_t> supports;               ///< velocities: [slots] contacts in the direction of gravity
     std::vector<CorrectionCounts> correction_counts;  ///< correction: [threads]
     ResolutionCounts resolution_counts;               ///< resolution
+    std::vector<std::uint32_t> added;                 ///< resolution: contacts that were added, ascending
+    Surroundings surroundings;                        ///< resolution: of these
+    std::vector<FollowedGroup> followed;              ///< resolution: the same, group after group
+    std::vector<Contact> resolved;                    ///< resolution: their contacts before it went on
     MeasuredData measured;                            ///< every stage: with the setting diagnostics only
     std::vector<std::uint32_t> generation;  ///< output: [slots] generations of the bodies that the contacts name
 };

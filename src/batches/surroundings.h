@@ -1,0 +1,47 @@
+/// @file The surroundings of some contacts, as groups of their own: what a change there reaches at first.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "batches/batches.h"
+
+namespace cairn {
+
+/// What surroundings are looked for in.
+struct SurroundingsInput {
+    std::span<const BodyKind> kind;
+    std::span<const Contact> contacts;
+    const ContactsOfBodies& contacts_of;
+    std::span<const std::uint8_t> excluded;  ///< [slots] 1 = its contacts are left out; empty = none
+};
+
+/// Groups of contacts that share no body that moves, each with all contacts of the bodies that so many contacts lead to
+/// from one of some contacts. The bodies at the edge of a group are in it with a part of their contacts: what the group
+/// gives them they keep, so nothing is lost, but what it means to their others is not asked.
+class Surroundings {
+  public:
+    /// @param seeds indices of contacts @param reach in contacts, from the bodies of the seeds
+    void find(const SurroundingsInput& input, std::span<const std::uint32_t> seeds, int reach);
+    /// In the order of their lowest bodies.
+    std::span<const BatchView> groups() const { return groups_; }
+
+  private:
+    void collectBodies(const SurroundingsInput& input, std::span<const std::uint32_t> seeds, int reach);
+    void collectContacts(const SurroundingsInput& input);
+    void divide();
+    BodyIndex rootOf(BodyIndex body);
+
+    std::vector<std::uint8_t> inner_;                              ///< [slots] 1 = with all its contacts
+    std::vector<BodyIndex> parent_;                                ///< [slots] in the forest of the groups
+    std::vector<BodyIndex> inside_;                                ///< bodies with all their contacts
+    std::vector<std::pair<BodyIndex, BodyIndex>> members_;         ///< root and body
+    std::vector<std::pair<BodyIndex, std::uint32_t>> of_members_;  ///< a body, later the root, and contact
+    std::vector<BodyIndex> bodies_;                                ///< group after group
+    std::vector<std::uint32_t> contacts_;                          ///< likewise
+    std::vector<BatchView> groups_;
+};
+
+}  // namespace cairn

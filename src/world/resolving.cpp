@@ -1,0 +1,141 @@
+#include "world/resolving.h"
+
+#include <algorithm>
+
+#include "batches/batch_motion.h"
+#include "world/checks.h"
+#include "world/pair_laws.h"
+
+namespace cairn {
+
+namespace {
+
+/// Most times that bodies are looked ahead for once more: each takes an impact that follows from the last one.
+constexpr int most_follows = 4;
+
+/// How many contacts away from an added one bodies are resolved with all their contacts.
+constexpr int follow_reach = 2;
+
+/// What of the batches is left out because it sleeps.
+Selecting selectingOf(const WorldState& world) {
+    const ResolutionKind resolution = world.settings.resolution.resolution;
+    if (resolution == ResolutionKind::none) return Selecting::everything;
+    return resolution == ResolutionKind::accelerated_sweeps ? Selecting::awake_parts : Selecting::awake_batches;
+}
+
+/// Resolves what is awake, and more of it where that disturbs sleepers.
+void resolveChosen(WorldState& world, BodyState& bodies, std::span<const BatchView> batches) {
+    StepData& data = world.data;
+    const ResolutionSettings& settings = world.settings.resolution;
+    // What would keep a body from falling asleep wakes it.
+    data.selection.begin(
+        {batches, data.contacts, bodies, selectingOf(world), world.settings.sleep.sleep_threshold, world.executor});
+    bodies.held = data.selection.held();
+    do {
+        data.resolution_counts.add(
+            world.resolution->resolve({data.selection.chosen(), data.contacts, bodies, settings, world.executor}));
+    } while (data.selection.widen());
+    data.selection.finish();
+}
+
+bool bounces(const Contact& contact, const BodyState& bodies, const ResolutionSettings& settings) {
+    const double closing = -normalVelocity(contact, bodies);
+    return contact.restitution > 0 && closing >= settings.restitution_threshold && closing > contact.allowed_closing;
+}
+
+/// Takes what contacts gave from the velocities of the bodies that are awake.
+void takeBack(const Contact& contact, const BodyState& bodies) {
+    for (const auto& [i, sign] : {std::pair(contact.a, 1.0), std::pair(contact.b, -1.0)}) {
+        if (bodies.isFixed(i) || bodies.asleep[i] != 0) continue;
+        const Vec3 lever = contact.point - bodies.position[i];
+        bodies.v[i] -= sign * bodies.mass_inv[i] * contact.impulse;
+        bodies.w[i] -= sign * (bodies.inertiaInv_W[i] * (lever.cross(contact.impulse) + contact.angular_impulse));
+    }
+}
+
+/// Goes back to before the resolution of a group's contacts, which then begin with what it found. Where one of those
+/// that were added bounces, its impact follows the others: then the velocities stay, and all begin with nothing.
+void beginAgain(StepData& data, const BodyState& bodies, const FollowedGroup& group) {
+    for (const std::uint32_t i : group.view.contacts) {
+        Contact& contact = data.contacts[i];
+        data.resolved.push_back(contact);
+        if (group.later) {
+            contact.last_impulse.setZero();
+            contact.reference_impulse.setZero();
+        } else {
+            takeBack(contact, bodies);
+            contact.last_impulse = contact.impulse;
+        }
+        contact.impulse.setZero();
+        contact.angular_impulse.setZero();
+    }
+}
+
+/// @param resolved the contacts of the group before
+void finishAgain(StepData& data, const BodyState& bodies, const FollowedGroup& group,
+                 std::span<const Contact> resolved) {
+    const auto isHeld = [&](BodyIndex i) { return !bodies.isFixed(i) && bodies.isImmovable(i); };
+    for (std::size_t n = 0; n < resolved.size(); ++n) {
+        Contact& contact = data.contacts[group.view.contacts[n]];
+        contact.last_impulse = resolved[n].last_impulse;
+        if (!group.later) continue;
+        contact.impulse += resolved[n].impulse;
+        contact.angular_impulse += resolved[n].angular_impulse;
+        const bool held = isHeld(contact.a) || isHeld(contact.b);
+        contact.reference_impulse = held ? resolved[n].reference_impulse : contact.impulse;
+    }
+}
+
+/// Resolves the surroundings of the contacts that were added. Bodies with joints take no part.
+void resolveFollowed(WorldState& world, BodyState& bodies) {
+    StepData& data = world.data;
+    applyPairLaws(world, bodies, data.added);
+    listContacts(world.bodies.kind, data.contacts, data.contacts_of);
+    data.surroundings.find({world.bodies.kind, data.contacts, data.contacts_of, data.jointed}, data.added,
+                           follow_reach);
+    data.followed.clear();
+    data.resolved.clear();
+    for (const BatchView& view : data.surroundings.groups()) {
+        const bool later = std::ranges::any_of(view.contacts, [&](std::uint32_t i) {
+            return std::ranges::binary_search(data.added, i) &&
+                   bounces(data.contacts[i], bodies, world.settings.resolution);
+        });
+        data.followed.push_back({view, later});
+        beginAgain(data, bodies, data.followed.back());
+    }
+    resolveChosen(world, bodies, data.surroundings.groups());
+    std::span<const Contact> resolved = data.resolved;
+    for (const FollowedGroup& group : data.followed) {
+        finishAgain(data, bodies, group, resolved.first(group.view.contacts.size()));
+        resolved = resolved.subspan(group.view.contacts.size());
+    }
+}
+
+}  // namespace
+
+void batchContacts(WorldState& world) {
+    StepData& data = world.data;
+    buildBatches(world.bodies.kind, data.contacts, data.batch_scratch, data.batches, world.joints);
+    listContacts(world.bodies.kind, data.contacts, data.contacts_of);
+    data.views.resize(data.batches.size());
+    for (std::size_t i = 0; i < data.views.size(); ++i) data.views[i] = data.batches[i];
+    data.schedule.arrange(data.views);
+    if (world.checks != Checks::off) checkBatches(world);
+}
+
+void resolveContacts(WorldState& world, BodyState& bodies, const PairsInput& pairs) {
+    StepData& data = world.data;
+    data.resolution_counts = {};
+    resolveChosen(world, bodies, data.views);
+    if (!(pairs.range.foresight.time > 0)) return;
+    bool followed = false;
+    for (int n = 0; n < most_follows; ++n) {
+        data.pairs.followStruck(pairs, data.contacts, data.added);
+        if (data.added.empty()) break;
+        resolveFollowed(world, bodies);
+        followed = true;
+    }
+    if (followed) batchContacts(world);
+}
+
+}  // namespace cairn

@@ -1,0 +1,16 @@
+/// @file Stages 4 and 7 of the step: which contacts are of one batch, and their resolution.
+#pragma once
+
+#include "world/world_state.h"
+
+namespace cairn {
+
+/// Groups the contacts into batches, and lists those of each body.
+void batchContacts(WorldState& world);
+
+/// Resolves what is awake of all batches. Where that sends bodies elsewhere than the detection foresaw, so that they
+/// would get into others before the next one, contacts are added, and their surroundings are resolved again.
+/// @param bodies as for the resolution @param pairs as for the detection
+void resolveContacts(WorldState& world, BodyState& bodies, const PairsInput& pairs);
+
+}  // namespace cairn
