@@ -10,6 +10,7 @@
 
 #include "batches/batches.h"
 #include "batches/schedule.h"
+#include "batches/surroundings.h"
 
 namespace cairn {
 namespace {
@@ -298,6 +299,56 @@ TEST(Schedule, WorksOnEveryBatchOnceOnAnyNumberOfThreads) {
         });
         for (const int n : times) ASSERT_EQ(n, 1);
     }
+}
+
+/// Six bodies in a row on a fixed one, and two beside it.
+struct Line {
+    std::vector<BodyKind> kind = {D, D, D, D, D, D, F, D, D};
+    std::vector<Contact> contacts = contactsBetween({{0, 1}, {0, 6}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 6}, {7, 8}});
+    ContactsOfBodies of_bodies;
+    Surroundings surroundings;
+
+    Line() { listContacts(kind, contacts, of_bodies); }
+    void find(std::vector<std::uint32_t> seeds, int reach, std::vector<std::uint8_t> excluded = {}) {
+        surroundings.find({kind, contacts, of_bodies, excluded}, seeds, reach);
+    }
+    std::vector<BodyIndex> bodies(std::size_t group) const {
+        const auto some = surroundings.groups()[group].bodies;
+        return {some.begin(), some.end()};
+    }
+    std::vector<std::uint32_t> contactsOf(std::size_t group) const {
+        const auto some = surroundings.groups()[group].contacts;
+        return {some.begin(), some.end()};
+    }
+};
+
+TEST(Surroundings, HoldAllContactsOfTheBodiesWithinReach) {
+    Line line;
+    line.find({2}, 1);
+    ASSERT_EQ(line.surroundings.groups().size(), 1);
+    EXPECT_EQ(line.bodies(0), (std::vector<BodyIndex>{0, 1, 2, 3}));
+    EXPECT_EQ(line.contactsOf(0), (std::vector<std::uint32_t>{0, 2, 3}));
+    line.find({2}, 2);
+    EXPECT_EQ(line.bodies(0), (std::vector<BodyIndex>{0, 1, 2, 3, 4}));
+    EXPECT_EQ(line.contactsOf(0), (std::vector<std::uint32_t>{0, 1, 2, 3, 4}));
+}
+
+TEST(Surroundings, AreGroupsThatShareNoBodyThatMoves) {
+    Line line;
+    line.find({1, 6, 7}, 1);
+    ASSERT_EQ(line.surroundings.groups().size(), 3);
+    EXPECT_EQ(line.bodies(0), (std::vector<BodyIndex>{0, 1}));
+    EXPECT_EQ(line.bodies(1), (std::vector<BodyIndex>{4, 5}));
+    EXPECT_EQ(line.bodies(2), (std::vector<BodyIndex>{7, 8}));
+    line.find({1, 6}, 3);
+    EXPECT_EQ(line.surroundings.groups().size(), 1);
+}
+
+TEST(Surroundings, LeaveOutContactsOfExcludedBodies) {
+    Line line;
+    line.find({2, 7}, 2, {0, 0, 1, 0, 0, 0, 0, 0, 0});
+    ASSERT_EQ(line.surroundings.groups().size(), 1);
+    EXPECT_EQ(line.bodies(0), (std::vector<BodyIndex>{7, 8}));
 }
 
 }  // namespace

@@ -113,6 +113,58 @@ TEST(ForeseenContacts, ABoxSlidesOverSeamsAsOverOnePiece) {
     EXPECT_NEAR(wayOver(16), wayOver(1), 0.03 * wayOver(1));
 }
 
+/// A ball flies to one that rests, behind which a third one rests: by the end of the step in which the first two meet
+/// the second would be in the third.
+struct Row {
+    Scene scene;
+    std::vector<BodyId> balls;
+    explicit Row(double restitution) {
+        scene.world.setGravity(Vec3::Zero());
+        scene.world.setDefaultPairProperties({.restitution = restitution});
+        balls.push_back(scene.world.addBody(at(Sphere{0.1}, Vec3(-1, 0, 0), Vec3(9, 0, 0))));
+        balls.push_back(scene.world.addBody(at(Sphere{0.1}, Vec3::Zero())));
+        balls.push_back(scene.world.addBody(at(Sphere{0.1}, Vec3(0.21, 0, 0))));
+    }
+    Vec3 velocity(std::size_t ball) const { return scene.world.linearVelocity(balls[ball]); }
+};
+
+TEST(ForeseenContacts, WhoIsStruckStopsWhereItTouches) {
+    Row row(0);
+    for (int i = 0; i < 10; ++i) {
+        row.scene.world.step();
+        EXPECT_GT(row.scene.deepest(), -0.0145 * 0.2) << i;
+        EXPECT_NEAR((row.velocity(0) + row.velocity(1) + row.velocity(2)).x(), 9, 1e-12) << i;
+    }
+    for (std::size_t ball = 0; ball < 3; ++ball) EXPECT_NEAR(row.velocity(ball).x(), 3, 0.05);
+}
+
+TEST(ForeseenContacts, AnImpactThatFollowsAnotherBounces) {
+    Row row(1);
+    for (int i = 0; i < 10; ++i) {
+        row.scene.world.step();
+        EXPECT_GT(row.scene.deepest(), -0.0145 * 0.2) << i;
+        EXPECT_NEAR(row.scene.world.kineticEnergy(), 0.5 * row.scene.world.mass(row.balls[0]) * 81, 1e-9) << i;
+    }
+    EXPECT_NEAR(row.velocity(0).x(), 0, 1e-9);
+    EXPECT_NEAR(row.velocity(1).x(), 0, 1e-9);
+    EXPECT_NEAR(row.velocity(2).x(), 9, 1e-9);
+}
+
+/// A box that lands on an edge turns, and its other edge meets the floor in the same step.
+TEST(ForeseenContacts, TheSideThatAnImpactTurnsDownStopsAtTheFloor) {
+    Scene scene;
+    scene.world.addBody(fixedAt(HalfSpace{}, Vec3::Zero()));
+    const BodyId low = scene.world.addBody(fixedAt(Box{Vec3(1, 1, 0.2)}, Vec3(0, 0, 0.1)));
+    BodyDescription plank = at(Box{Vec3(1, 0.2, 0.1)}, Vec3(0.95, 0, 0.62), Vec3(0, 0, -20));
+    plank.pose.orientation = Quat(Eigen::AngleAxisd(0.1, Vec3::UnitY()));
+    scene.world.addBody(plank);
+    for (int i = 0; i < 30; ++i) {
+        scene.world.step();
+        EXPECT_GT(scene.deepest(), -0.1 * 0.1) << i;
+    }
+    EXPECT_TRUE(scene.world.contains(low));
+}
+
 TEST(ForeseenContacts, AWorldThatIsRestoredGoesOnBitByBit) {
     Scene scene;
     scene.world.addBody(fixedAt(HalfSpace{}, Vec3::Zero()));
