@@ -206,7 +206,7 @@ class SceneRun {
     /// Ids of the scene's bodies, by index; stale once removed.
     const std::vector<BodyId>& ids() const { return ids_; }
 
-    /// Applies the events that are due, then steps the world once.
+    /// Applies the events that are due, then steps the world once. A shared world is gathered before an event.
     void step();
     /// One simulation step of 1/30 s. @return the sum of the statistics of its time steps
     Statistics simulationStep();

@@ -72,6 +72,18 @@ bool mayTouch(const BodyStorage& bodies, std::span<const BodyPair> excluded, con
 
 }  // namespace
 
+Bounds searchedBounds(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, BodyAhead& ahead) {
+    Bounds grown = boundsOf(bodies.shape[i], bodies.shapePose(i));
+    const double r_min = bodies.r_min[i];
+    const double margin = std::isfinite(r_min) ? range.marginOf(r_min, r_min) : 0;
+    grown.lower.array() -= margin;
+    grown.upper.array() += margin;
+    if (range.foresight.time == 0) return grown;
+    ahead.now = grown;
+    lookAhead(bodies, range, i, ahead);
+    return ahead.way;
+}
+
 void PairTable::beginStep(const BodyStorage& bodies, std::span<const std::uint32_t> generation,
                           const Executor& executor) {
     removed_.clear();
@@ -147,16 +159,7 @@ void PairTable::findBounds(const PairsInput& input) {
             // What is awake may have been stopped or pushed since.
             const bool same = range_.foresight.time == 0 || (bodies.asleep[i] != 0 && ahead_[i].reach == 0);
             if (bodies.kind[i] == BodyKind::hole || (unmoved_[i] != 0 && same)) continue;
-            Bounds grown = boundsOf(bodies.shape[i], bodies.shapePose(i));
-            const double r_min = bodies.r_min[i];
-            const double margin = std::isfinite(r_min) ? range_.marginOf(r_min, r_min) : 0;
-            grown.lower.array() -= margin;
-            grown.upper.array() += margin;
-            bounds_[i] = grown;
-            if (range_.foresight.time == 0) continue;
-            ahead_[i].now = grown;
-            lookAhead(bodies, range_, i, ahead_[i]);
-            bounds_[i] = ahead_[i].way;
+            bounds_[i] = searchedBounds(bodies, range_, i, ahead_[i]);
         }
     });
 }

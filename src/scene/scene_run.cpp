@@ -254,6 +254,7 @@ void SceneRun::step() {
     const double now = world_.time() + 1e-9 * world_.settings().timeStep();
     while (next_event_ < scene_.events.size() && scene_.events[next_event_].time <= now) {
         const SceneEvent& event = scene_.events[next_event_++];
+        world_.gather();
         inContext(fmt::format("event at {} s", event.time), [&] { apply(event.action); });
     }
     for (std::size_t i = 0; i < curves_.size(); ++i) {

@@ -7,6 +7,7 @@
 #include "pairs/warm_start.h"
 #include "world/checks.h"
 #include "world/diagnostics.h"
+#include "world/division.h"
 #include "world/events.h"
 #include "world/joints.h"
 #include "world/motions.h"
@@ -253,6 +254,7 @@ void stepWorld(WorldState& world) {
     });
     measureIfAsked(world, Measured::positions);
     timed(world, Stage::detection, [&] {
+        settleShared(world, rangeOf(world));
         world.data.pairs.beginStep(world.bodies, world.data.generation, world.executor);
         beginContacts(world.data.contacts, warmStart(world), world.executor);
         detect(world);

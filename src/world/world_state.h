@@ -27,6 +27,7 @@
 #include "parallel/help_choice.h"
 #include "queries/spatial_index.h"
 #include "resolution/resolution.h"
+#include "sharing/shared_bodies.h"
 #include "world/driven_body.h"
 #include "world/ties.h"
 
@@ -134,6 +135,8 @@ struct WorldState {
     std::vector<DrivenBody> driven;           ///< ascending by body
     std::optional<FrameMotion> frame;         ///< none = it rests
     Vec3 frame_acceleration = Vec3::Zero();   ///< events: what its motion gives all bodies in this step [m/s², W]
+
+    std::unique_ptr<SharedBodies> shared;  ///< with other ranks; null = the world is on one
 
     std::int64_t steps = 0;
     double time = 0;                  ///< [s]

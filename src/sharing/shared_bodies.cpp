@@ -1,0 +1,296 @@
+#include "sharing/shared_bodies.h"
+
+#include <algorithm>
+#include <cstring>
+#include <tuple>
+#include <utility>
+
+#include "messages/packing.h"
+#include "sharing/body_records.h"
+
+namespace cairn {
+
+namespace {
+
+/// Covers are larger than what a detection searches by this part of the body's smallest extent, so that groups last for
+/// some steps. The larger, the more bodies stand in one group that do not touch.
+constexpr double slack = 0.1;
+
+/// … and by its way in the time that follows [s].
+constexpr double time_ahead = 1.0 / 60;
+
+/// Stands for no rank.
+constexpr std::uint32_t no_rank = UINT32_MAX;
+
+/// What a rank asks of the others at the beginning of a step.
+enum Wish : std::uint8_t { nothing = 0, groups_anew = 1, tell_frozen = 2 };
+
+std::uint64_t mixed(std::uint64_t x) {
+    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+    return x ^ (x >> 31U);
+}
+
+bool comesBefore(const Contact& a, const Contact& b) {
+    return std::tie(a.a, a.b) < std::tie(b.a, b.b);
+}
+
+/// Puts contacts among others; those of a pair all come from one rank, in their order.
+void mergeContacts(std::vector<Contact>& contacts, const std::vector<Contact>& came) {
+    const auto middle = static_cast<std::ptrdiff_t>(contacts.size());
+    contacts.insert(contacts.end(), came.begin(), came.end());
+    std::stable_sort(contacts.begin() + middle, contacts.end(), comesBefore);
+    std::inplace_merge(contacts.begin(), contacts.begin() + middle, contacts.end(), comesBefore);
+}
+
+}  // namespace
+
+SharedBodies::SharedBodies(Ranks& ranks, const Partition& partition) : ranks_(ranks), partition_(partition) {
+    requirePartition(partition, ranks.size());
+}
+
+void SharedBodies::settle(const DealtOut& world) {
+    if (whole_) return divide(world);
+    if (!isDue(world)) return;
+    coverAll(world);
+    groups_.find(groupsInput(world), world.executor, ranks_);
+    findOwners(world);
+    moveHouse(world);
+}
+
+/// Every rank keeps its part of what all have.
+void SharedBodies::divide(const DealtOut& world) {
+    BodyStorage& bodies = world.bodies;
+    kind_.assign(bodies.kind.begin(), bodies.kind.end());
+    cover_.resize(bodies.slots());
+    covered_.assign(bodies.slots(), 0);
+    owner_.resize(bodies.slots());
+    ahead_.resize(bodies.slots());
+    coverAll(world);
+    std::vector<Vec3> places;
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        if (isOwn(bodies, i)) places.push_back(bodies.position[i]);
+    }
+    regions_.emplace(partition_, ranks_.size(), std::move(places));
+    groups_.find(groupsInput(world), world.executor);
+    findOwners(world);
+    const auto own = static_cast<std::uint32_t>(ranks_.rank());
+    std::erase_if(world.contacts, [&](const Contact& contact) {
+        // What is left of bodies that were fixed since is for one rank to forget.
+        const std::uint32_t holder = holderOf(contact);
+        return holder == no_rank ? own != 0 : holder != own;
+    });
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        if (isOwn(bodies, i) && owner_[i] != own) leave(bodies, i);
+    }
+    bodies.adoptSlots(bodies.nextNumber());
+    world.pairs.adopt(world.contacts);
+    whole_ = false;
+}
+
+void SharedBodies::gather(const DealtOut& world) {
+    if (whole_) return;
+    BodyStorage& bodies = world.bodies;
+    tellFrozen(bodies);
+    std::uint64_t count = 0;
+    std::vector<std::byte> message;
+    pack(message, count);
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        if (!isOwn(bodies, i)) continue;
+        ++count;
+        packResident(message, world, i);
+    }
+    std::memcpy(message.data(), &count, sizeof(count));
+    for (const Contact& contact : world.contacts) packContact(message, contact);
+    Ranks::Messages told = tellAll(ranks_, message);
+    told[static_cast<std::size_t>(ranks_.rank())].clear();
+    takeIn(world, told);
+    bodies.adoptSlots(bodies.nextNumber());
+    world.pairs.adopt(world.contacts);
+    whole_ = true;
+}
+
+/// Whether a body of this rank may be elsewhere, or look farther, than when its cover was last compared.
+bool SharedBodies::mayHaveLeft(const BodyStorage& bodies, BodyIndex i) const {
+    const bool stays = covered_[i] != 0 && bodies.asleep[i] != 0 && bodies.detected_position[i] == bodies.position[i] &&
+                       bodies.detected_orientation[i].coeffs() == bodies.orientation[i].coeffs();
+    return !stays;
+}
+
+/// Asks all ranks whether groups must be found anew.
+bool SharedBodies::isDue(const DealtOut& world) {
+    const BodyStorage& bodies = world.bodies;
+    const bool rebalances = partition_.rebalance_every > 0 && world.step % partition_.rebalance_every == 0;
+    std::uint8_t wish = partition_.restless || rebalances ? groups_anew : nothing;
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        if (kind_[i] == BodyKind::dynamic && bodies.kind[i] == BodyKind::fixed) wish |= tell_frozen;
+        if ((wish & groups_anew) != 0 || !isOwn(bodies, i) || !mayHaveLeft(bodies, i)) continue;
+        if (covered_[i] != 0 && cover_[i].contains(searchedBounds(bodies, world.range, i, ahead_[i]))) continue;
+        wish |= groups_anew;
+    }
+    std::uint8_t all = nothing;
+    for (const std::uint8_t one : gatherAll(ranks_, wish)) all |= one;
+    if ((all & tell_frozen) != 0) tellFrozen(world.bodies);
+    if (rebalances) cut(world);
+    return all != nothing;
+}
+
+/// Cuts all space anew, by where bodies are now.
+void SharedBodies::cut(const DealtOut& world) {
+    std::vector<std::byte> message;
+    for (BodyIndex i = 0; i < world.bodies.slots(); ++i) {
+        if (isOwn(world.bodies, i)) pack(message, world.bodies.position[i]);
+    }
+    std::vector<Vec3> places;
+    for (const auto& told : tellAll(ranks_, message)) {
+        for (Unpacker in(told); !in.isAtEnd();) places.push_back(in.get<Vec3>());
+    }
+    regions_.emplace(partition_, ranks_.size(), std::move(places));
+}
+
+/// Gives new covers to the bodies of this rank that move.
+void SharedBodies::coverAll(const DealtOut& world) {
+    const BodyStorage& bodies = world.bodies;
+    world.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
+        for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
+            if (!isOwn(bodies, i) || !mayHaveLeft(bodies, i)) continue;
+            const Bounds bounds = searchedBounds(bodies, world.range, i, ahead_[i]);
+            const Vec3 way = time_ahead * bodies.v[i];
+            cover_[i] = bounds.grown(slack * (bounds.upper - bounds.lower).minCoeff());
+            cover_[i].lower += way.cwiseMin(0);
+            cover_[i].upper += way.cwiseMax(0);
+            covered_[i] = 1;
+        }
+    });
+}
+
+/// Lets all ranks know the bodies that were fixed by a fault: what is fixed is on all of them.
+void SharedBodies::tellFrozen(BodyStorage& bodies) {
+    std::vector<std::byte> message;
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        if (kind_[i] != BodyKind::dynamic || bodies.kind[i] != BodyKind::fixed) continue;
+        pack(message, i);
+        packBody(message, bodies, i);
+    }
+    bool any = false;
+    for (const auto& told : tellAll(ranks_, message)) {
+        for (Unpacker in(told); !in.isAtEnd();) {
+            const auto i = in.get<BodyIndex>();
+            unpackBody(in, bodies, i);
+            kind_[i] = bodies.kind[i] = BodyKind::fixed;
+            bodies.updateMassProperties(i);
+            any = true;
+        }
+    }
+    if (any) bodies.adoptSlots(bodies.nextNumber());
+}
+
+NearGroupsInput SharedBodies::groupsInput(const DealtOut& world) const {
+    const BodyStorage& bodies = world.bodies;
+    return {bodies.kind, cover_, bodies.position, world.contacts, world.tied};
+}
+
+void SharedBodies::findOwners(const DealtOut& world) {
+    for (BodyIndex i = 0; i < world.bodies.slots(); ++i) {
+        if (isOwn(world.bodies, i)) owner_[i] = static_cast<std::uint32_t>(ownerOf(world, groups_.groupOf(i)));
+    }
+}
+
+/// The rank that a group belongs to; all ranks that have a part of it tell the same.
+int SharedBodies::ownerOf(const DealtOut& world, BodyIndex group) const {
+    const auto count = static_cast<std::uint64_t>(ranks_.size());
+    const auto turn = partition_.restless ? static_cast<std::uint64_t>(world.step) : 0;
+    if (partition_.kind == Partition::Kind::hash) {
+        return static_cast<int>((mixed(world.bodies.number[group] + 1) + turn) % count);
+    }
+    return static_cast<int>((static_cast<std::uint64_t>(regions_->ownerOf(groups_.middleOf(group))) + turn) % count);
+}
+
+/// The rank that has or gets a contact of own bodies: that of its bodies that can move.
+std::uint32_t SharedBodies::holderOf(const Contact& contact) const {
+    if (kind_[contact.a] == BodyKind::dynamic) return owner_[contact.a];
+    return kind_[contact.b] == BodyKind::dynamic ? owner_[contact.b] : no_rank;
+}
+
+/// Takes the bodies that belong elsewhere out of this world. @param out gets them @return whether there are any
+bool SharedBodies::moveAway(const DealtOut& world, Ranks::Messages& out) {
+    BodyStorage& bodies = world.bodies;
+    const auto own = static_cast<std::uint32_t>(ranks_.rank());
+    std::vector<std::uint64_t> counts(out.size(), 0);
+    bool any = false;
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        if (!isOwn(bodies, i) || owner_[i] == own) continue;
+        std::vector<std::byte>& message = out[owner_[i]];
+        if (message.empty()) pack(message, std::uint64_t{0});
+        ++counts[owner_[i]];
+        packResident(message, world, i);
+        leave(bodies, i);
+        any = true;
+    }
+    if (!any) return false;
+    for (std::size_t to = 0; to < out.size(); ++to) {
+        if (counts[to] > 0) std::memcpy(out[to].data(), &counts[to], sizeof(counts[to]));
+    }
+    std::erase_if(world.contacts, [&](const Contact& contact) {
+        const std::uint32_t holder = holderOf(contact);
+        if (holder == no_rank || holder == own) return false;
+        packContact(out[holder], contact);
+        return true;
+    });
+    return true;
+}
+
+/// Takes in what others sent. @return whether there was anything
+bool SharedBodies::takeIn(const DealtOut& world, const Ranks::Messages& in) {
+    came_.clear();
+    bool any = false;
+    for (const auto& message : in) {
+        if (message.empty()) continue;
+        Unpacker reader(message);
+        for (auto left = reader.get<std::uint64_t>(); left > 0; --left) {
+            unpackResident(reader, world);
+            any = true;
+        }
+        while (!reader.isAtEnd()) came_.push_back(unpackContact(reader));
+    }
+    if (!came_.empty()) mergeContacts(world.contacts, came_);
+    return any;
+}
+
+void SharedBodies::moveHouse(const DealtOut& world) {
+    Ranks::Messages out(static_cast<std::size_t>(ranks_.size()));
+    const bool left = moveAway(world, out);
+    const bool came = takeIn(world, ranks_.exchange(std::move(out)));
+    if (!left && !came) return;
+    world.bodies.adoptSlots(world.bodies.nextNumber());
+    world.pairs.adopt(world.contacts);
+}
+
+/// Appends a body with what this room and the step remember of it.
+void SharedBodies::packResident(std::vector<std::byte>& message, const DealtOut& world, BodyIndex i) const {
+    pack(message, i);
+    packBody(message, world.bodies, i);
+    pack(message, cover_[i].lower);
+    pack(message, cover_[i].upper);
+    if (!world.begun.empty()) pack(message, world.begun[i]);
+}
+
+void SharedBodies::unpackResident(Unpacker& in, const DealtOut& world) {
+    const auto i = in.get<BodyIndex>();
+    unpackBody(in, world.bodies, i);
+    world.bodies.kind[i] = BodyKind::dynamic;
+    cover_[i].lower = in.get<Vec3>();
+    cover_[i].upper = in.get<Vec3>();
+    covered_[i] = 1;
+    owner_[i] = static_cast<std::uint32_t>(ranks_.rank());
+    if (!world.begun.empty()) world.begun[i] = in.get<Vec3>();
+}
+
+/// Leaves a slot to the rank that has its body.
+void SharedBodies::leave(BodyStorage& bodies, BodyIndex i) const {
+    bodies.kind[i] = BodyKind::hole;
+    bodies.asleep[i] = 0;
+    bodies.woken[i] = WakeReason::none;
+}
+
+}  // namespace cairn

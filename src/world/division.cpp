@@ -1,0 +1,130 @@
+#include "world/division.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <tuple>
+
+#include "messages/packing.h"
+#include "world/quarantine.h"
+
+namespace cairn {
+
+namespace {
+
+/// What a step counts of its bodies and contacts; of the whole world it is the sum.
+constexpr std::array counts = {&Statistics::contacts,
+                               &Statistics::penetrating_contacts,
+                               &Statistics::corrected_contacts,
+                               &Statistics::uncorrected_contacts,
+                               &Statistics::displaced_bodies,
+                               &Statistics::global_iterations,
+                               &Statistics::shock_iterations,
+                               &Statistics::shock_batches,
+                               &Statistics::batches,
+                               &Statistics::asleep,
+                               &Statistics::woken};
+
+std::vector<BodyPair> tiedBodies(const WorldState& world) {
+    std::vector<BodyPair> tied;
+    for (const Spring& spring : world.springs) {
+        if (spring.present && spring.b != Spring::world_point) tied.push_back({spring.a, spring.b});
+    }
+    return tied;
+}
+
+void packFault(std::vector<std::byte>& message, const FaultInfo& fault) {
+    pack(message, fault.body);
+    pack(message, fault.step);
+    pack(message, static_cast<std::uint64_t>(fault.what.size()));
+    for (const char letter : fault.what) pack(message, letter);
+}
+
+FaultInfo unpackFault(Unpacker& in) {
+    FaultInfo fault;
+    fault.body = in.get<BodyId>();
+    fault.step = in.get<std::int64_t>();
+    fault.what.resize(in.get<std::uint64_t>());
+    for (char& letter : fault.what) letter = in.get<char>();
+    return fault;
+}
+
+/// Adds up what the ranks counted in the last step, and lists the faults of all.
+void gatherReports(WorldState& world) {
+    const Statistics& own = world.statistics;
+    std::vector<std::byte> message;
+    for (const auto count : counts) pack(message, own.*count);
+    pack(message, own.largest_batch);
+    pack(message, own.stage_ms);
+    for (const FaultInfo& fault : world.faults) packFault(message, fault);
+    Statistics sum;
+    world.faults.clear();
+    for (const auto& told : tellAll(world.shared->ranks(), message)) {
+        Unpacker in(told);
+        for (const auto count : counts) sum.*count += in.get<std::int64_t>();
+        sum.largest_batch = std::max(sum.largest_batch, in.get<std::int64_t>());
+        const auto stage_ms = in.get<std::array<double, stage_count>>();
+        for (std::size_t i = 0; i < stage_count; ++i) sum.stage_ms[i] = std::max(sum.stage_ms[i], stage_ms[i]);
+        while (!in.isAtEnd()) world.faults.push_back(unpackFault(in));
+    }
+    world.statistics = sum;
+    measureOverlaps(world);
+    // What failed while all ranks had it is told by all.
+    const auto key = [](const FaultInfo& fault) { return std::tuple(fault.step, fault.body); };
+    std::ranges::stable_sort(world.faults, {}, key);
+    const auto rest = std::ranges::unique(world.faults, {}, key);
+    world.faults.erase(rest.begin(), rest.end());
+}
+
+}  // namespace
+
+void settleShared(WorldState& world, const DetectionRange& range) {
+    if (world.shared == nullptr) return;
+    if (world.shared->isWhole()) requireShareable(world);
+    const std::vector<BodyPair> tied = tiedBodies(world);
+    std::span<Vec3> begun;
+    if (world.settings.integration.exact_flight) begun = world.data.before.position;
+    world.shared->settle(
+        {world.bodies, world.data.pairs, world.data.contacts, begun, tied, range, world.steps, world.executor});
+}
+
+void gatherShared(WorldState& world) {
+    if (world.shared == nullptr || world.shared->isWhole()) return;
+    StepData& data = world.data;
+    world.shared->gather({world.bodies, data.pairs, data.contacts, {}, {}, {}, world.steps, world.executor});
+    buildBatches(world.bodies.kind, data.contacts, data.batch_scratch, data.batches, world.joints);
+    listContacts(world.bodies.kind, data.contacts, data.contacts_of);
+    gatherReports(world);
+    world.lasting.reset();
+    ++world.places_version;
+}
+
+void requireWhole(const WorldState& world, std::string_view call) {
+    if (world.shared == nullptr || world.shared->isWhole()) return;
+    throw InputError(fmt::format(
+        "{} needs all bodies, and the world is divided among {} ranks: call World::gather() on all of them first", call,
+        world.shared->ranks().size()));
+}
+
+void requireShareable(const WorldState& world) {
+    const auto refuse = [](std::string_view what, std::string_view remedy) {
+        throw InputError(fmt::format("{} cannot be shared among ranks yet; {}", what, remedy));
+    };
+    const auto isSensor = [](std::uint8_t sensor) { return sensor != 0; };
+    if (std::ranges::any_of(world.joints, &Joint::present)) {
+        refuse("a world with joints", "run it on one rank, with --threads");
+    }
+    if (std::ranges::any_of(world.bodies.sensor, isSensor)) {
+        refuse("a world with sensors", "run it on one rank, with --threads");
+    }
+    if (world.settings.diagnostics.diagnostics) {
+        refuse("a world that measures diagnostics", "switch the setting off, or run it on one rank");
+    }
+    if (world.events.level != EventLevel::none) {
+        refuse("a world that notes events", "set its event level to none, or run it on one rank");
+    }
+}
+
+}  // namespace cairn

@@ -1,0 +1,135 @@
+/// The same input gives bit-identical states on any number of ranks, at every time step, whoever owns what.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "cairn/ranks.h"
+#include "cairn/scene.h"
+#include "golden/scene_names.h"
+#include "golden/scenes.h"
+
+namespace cairn {
+namespace {
+
+/// Adds up a number of every rank.
+std::uint64_t sumOf(Ranks& ranks, std::uint64_t own) {
+    std::vector<std::byte> message(sizeof(own));
+    std::memcpy(message.data(), &own, sizeof(own));
+    std::uint64_t sum = 0;
+    for (const auto& told : ranks.exchange(Ranks::Messages(static_cast<std::size_t>(ranks.size()), message))) {
+        std::uint64_t one = 0;
+        std::memcpy(&one, told.data(), sizeof(one));
+        sum += one;
+    }
+    return sum;
+}
+
+struct Division {
+    const char* name;
+    int ranks;
+    Partition partition;
+};
+
+using Kind = Partition::Kind;
+
+/// Between them all numbers and cuts, those under which everything is a border, and owners that change in every step.
+const std::vector<Division> divisions{
+    {"one", 1, {}},
+    {"two along x", 2, {.kind = Kind::x}},
+    {"three along y", 3, {.kind = Kind::y}},
+    {"four along z", 4, {.kind = Kind::z}},
+    {"2x2x1", 4, {.kind = Kind::grid, .parts = {2, 2, 1}}},
+    {"three by hash", 3, {.kind = Kind::hash}},
+    {"two by hash, changing", 2, {.kind = Kind::hash, .restless = true}},
+    {"four boxes, changing", 4, {.restless = true}},
+    {"three boxes, rebalanced", 3, {.rebalance_every = 7}},
+};
+
+/// What a run on one rank comes to.
+struct Expected {
+    std::vector<std::uint64_t> hashes;  ///< after every step
+    Statistics statistics;              ///< of the last step
+    std::vector<ContactInfo> contacts;  ///< likewise
+};
+
+Expected runAlone(const golden::GoldenScene& scene, golden::Kind kind) {
+    golden::GoldenRun run(scene, kind, 1);
+    Expected expected;
+    while (run.world().stepCount() < scene.hashSteps(kind).back()) {
+        run.step();
+        expected.hashes.push_back(run.world().stateHash());
+    }
+    expected.statistics = run.world().statistics();
+    expected.contacts = run.world().contacts();
+    return expected;
+}
+
+void expectEqual(const Statistics& one, const Statistics& other) {
+    EXPECT_EQ(one.contacts, other.contacts);
+    EXPECT_EQ(one.penetrating_contacts, other.penetrating_contacts);
+    EXPECT_EQ(one.corrected_contacts, other.corrected_contacts);
+    EXPECT_EQ(one.displaced_bodies, other.displaced_bodies);
+    EXPECT_EQ(one.global_iterations, other.global_iterations);
+    EXPECT_EQ(one.batches, other.batches);
+    EXPECT_EQ(one.largest_batch, other.largest_batch);
+    EXPECT_EQ(one.asleep, other.asleep);
+    EXPECT_EQ(one.woken, other.woken);
+    EXPECT_EQ(one.largest_overlap, other.largest_overlap);
+    EXPECT_EQ(one.mean_overlap, other.mean_overlap);
+}
+
+void expectEqual(const std::vector<ContactInfo>& some, const std::vector<ContactInfo>& others) {
+    ASSERT_EQ(some.size(), others.size());
+    for (std::size_t i = 0; i < some.size(); ++i) {
+        EXPECT_EQ(some[i].a, others[i].a);
+        EXPECT_EQ(some[i].b, others[i].b);
+        EXPECT_EQ(some[i].point, others[i].point);
+        EXPECT_EQ(some[i].impulse, others[i].impulse);
+        EXPECT_EQ(some[i].batch, others[i].batch);
+    }
+}
+
+class RanksAgree : public testing::TestWithParam<golden::SceneAndKind> {};
+
+TEST_P(RanksAgree, StatesAreThoseOfOneRankAtEveryStep) {
+    const auto [name, kind] = GetParam();
+    const golden::GoldenScene& scene = golden::goldenScene(name);
+    const Expected expected = runAlone(scene, kind);
+    for (const Division& division : divisions) {
+        SCOPED_TRACE(division.name);
+        runRanks(division.ranks, [&](Ranks& ranks) {
+            golden::GoldenRun run(scene, kind, 1);
+            run.share(ranks, division.partition);
+            for (const std::uint64_t hash : expected.hashes) {
+                run.step();
+                ASSERT_TRUE(run.world().isDivided());
+                ASSERT_EQ(sumOf(ranks, run.world().stateHash()), hash) << "time step " << run.world().stepCount();
+            }
+            run.gather();
+            EXPECT_FALSE(run.world().isDivided());
+            EXPECT_EQ(run.world().stateHash(), expected.hashes.back());
+            EXPECT_TRUE(run.world().faults().empty());
+            expectEqual(run.world().statistics(), expected.statistics);
+            expectEqual(run.world().contacts(), expected.contacts);
+        });
+        if (HasFatalFailure()) return;
+    }
+}
+
+/// Those without joints.
+std::vector<golden::SceneAndKind> scenesThatCanBeShared() {
+    std::vector<golden::SceneAndKind> some;
+    for (const auto& [name, kind] : golden::everySceneWithEveryKind()) {
+        const golden::GoldenScene& scene = golden::goldenScene(name);
+        if (scene.make().joints.empty()) some.emplace_back(name, kind);
+    }
+    return some;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, RanksAgree, testing::ValuesIn(scenesThatCanBeShared()), golden::nameOfSceneAndKind);
+
+}  // namespace
+}  // namespace cairn
