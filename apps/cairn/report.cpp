@@ -102,6 +102,28 @@ Report makeReport(const SceneRun& run, const Measurements& measurements) {
     return report;
 }
 
+namespace {
+
+std::string formatRanks(const RanksReport& ranks) {
+    const double count = ranks.count;
+    return row("ranks", fmt::format("{}; waiting {:.3f} s on average, the slowest {:.3f} s", ranks.count,
+                                    ranks.sum.waiting / count, ranks.least_waiting)) +
+           row("messages", fmt::format("{} in {} rounds, {:.3f} MB", ranks.sum.messages, ranks.sum.rounds,
+                                       1e-6 * static_cast<double>(ranks.sum.bytes)));
+}
+
+nlohmann::ordered_json toJson(const RanksReport& ranks) {
+    return {
+        {"count", ranks.count},
+        {"rounds", ranks.sum.rounds},
+        {"messages", ranks.sum.messages},
+        {"bytes", ranks.sum.bytes},
+        {"waiting_s",
+         {{"mean", ranks.sum.waiting / ranks.count}, {"least", ranks.least_waiting}, {"most", ranks.most_waiting}}}};
+}
+
+}  // namespace
+
 std::string formatTable(const Report& report) {
     const Statistics& total = report.total;
     std::string text = fmt::format("{}: {} bodies, {} {}\n", report.scene, report.bodies, report.threads,
@@ -124,6 +146,7 @@ std::string formatTable(const Report& report) {
                 fmt::format("{:.6g} J kinetic, {:.6g} J potential", report.kinetic_energy, report.potential_energy));
     text += row("bodies asleep", fmt::format("{}", report.asleep));
     text += row("bodies lost", fmt::format("{}", report.lost));
+    if (report.ranks) text += formatRanks(*report.ranks);
     text += row("state hash", fmt::format("{:016x}", report.state_hash));
     return text;
 }
@@ -131,7 +154,7 @@ std::string formatTable(const Report& report) {
 nlohmann::ordered_json toJson(const Report& report) {
     nlohmann::ordered_json stages = nlohmann::ordered_json::object();
     for (std::size_t i = 0; i < stage_count; ++i) stages[std::string(stage_names[i])] = report.total.stage_ms[i];
-    return {
+    nlohmann::ordered_json json = {
         {"scene", report.scene},
         {"bodies", report.bodies},
         {"threads", report.threads},
@@ -156,6 +179,8 @@ nlohmann::ordered_json toJson(const Report& report) {
         {"lost", report.lost},
         {"state_hash", fmt::format("{:016x}", report.state_hash)},
     };
+    if (report.ranks) json["ranks"] = toJson(*report.ranks);
+    return json;
 }
 
 }  // namespace cairn::cli

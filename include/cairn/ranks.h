@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "cairn/statistics.h"
+
 namespace cairn {
 
 /// What a rank has sent so far, and waited for.
@@ -75,6 +77,7 @@ std::unique_ptr<Ranks> mpiRanks();
 
 /// How bodies are dealt out to ranks. No result depends on it.
 struct Partition {
+    /// What says whose a place is.
     enum class Kind : std::uint8_t {
         boxes,  ///< cut in halves of as many bodies, again and again, across the longest extent
         x,      ///< slabs of as many bodies along an axis
@@ -83,7 +86,7 @@ struct Partition {
         grid,  ///< slabs along x, each cut along y, each of these along z
         hash   ///< by number, wherever bodies are: everything is a border, for tests
     };
-    Kind kind = Kind::boxes;
+    Kind kind = Kind::boxes;            ///< of the cuts
     std::array<int, 3> parts{1, 1, 1};  ///< of a grid, along each axis; their product is the number of ranks
     bool restless = false;              ///< all bodies change hands in every step, for tests
     std::int64_t rebalance_every = 0;   ///< time steps after which the cuts are made anew; 0 = never
@@ -91,5 +94,11 @@ struct Partition {
 
 /// The kind with a name: boxes, x, y, z or hash. @throws InputError for another name; the text names all
 Partition::Kind partitionNamed(std::string_view name);
+
+/// What all ranks counted: the sums of numbers, the largest sizes, and the times of the slowest; without the mean
+/// overlap, which is World::statistics() after World::gather(). To be called by all ranks. @param own of this rank
+Statistics sumOverRanks(Ranks& ranks, const Statistics& own);
+/// The sum of a number of every rank, modulo 2⁶⁴: of World::stateHash() it is that of the whole world.
+std::uint64_t sumOverRanks(Ranks& ranks, std::uint64_t own);
 
 }  // namespace cairn

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <tuple>
 
@@ -13,19 +12,6 @@
 namespace cairn {
 
 namespace {
-
-/// What a step counts of its bodies and contacts; of the whole world it is the sum.
-constexpr std::array counts = {&Statistics::contacts,
-                               &Statistics::penetrating_contacts,
-                               &Statistics::corrected_contacts,
-                               &Statistics::uncorrected_contacts,
-                               &Statistics::displaced_bodies,
-                               &Statistics::global_iterations,
-                               &Statistics::shock_iterations,
-                               &Statistics::shock_batches,
-                               &Statistics::batches,
-                               &Statistics::asleep,
-                               &Statistics::woken};
 
 std::vector<BodyPair> tiedBodies(const WorldState& world) {
     std::vector<BodyPair> tied;
@@ -53,23 +39,14 @@ FaultInfo unpackFault(Unpacker& in) {
 
 /// Adds up what the ranks counted in the last step, and lists the faults of all.
 void gatherReports(WorldState& world) {
-    const Statistics& own = world.statistics;
+    Ranks& ranks = world.shared->ranks();
+    world.statistics = sumOverRanks(ranks, world.statistics);
     std::vector<std::byte> message;
-    for (const auto count : counts) pack(message, own.*count);
-    pack(message, own.largest_batch);
-    pack(message, own.stage_ms);
     for (const FaultInfo& fault : world.faults) packFault(message, fault);
-    Statistics sum;
     world.faults.clear();
-    for (const auto& told : tellAll(world.shared->ranks(), message)) {
-        Unpacker in(told);
-        for (const auto count : counts) sum.*count += in.get<std::int64_t>();
-        sum.largest_batch = std::max(sum.largest_batch, in.get<std::int64_t>());
-        const auto stage_ms = in.get<std::array<double, stage_count>>();
-        for (std::size_t i = 0; i < stage_count; ++i) sum.stage_ms[i] = std::max(sum.stage_ms[i], stage_ms[i]);
-        while (!in.isAtEnd()) world.faults.push_back(unpackFault(in));
+    for (const auto& told : tellAll(ranks, message)) {
+        for (Unpacker in(told); !in.isAtEnd();) world.faults.push_back(unpackFault(in));
     }
-    world.statistics = sum;
     measureOverlaps(world);
     // What failed while all ranks had it is told by all.
     const auto key = [](const FaultInfo& fault) { return std::tuple(fault.step, fault.body); };
