@@ -134,6 +134,35 @@ void PairTable::adopt(std::span<const Contact> contacts) {
     bounds_.clear();
 }
 
+void PairTable::change(const PairChange& change, std::vector<Contact>& contacts) {
+    changed_pairs_.clear();
+    changed_contacts_.clear();
+    auto next = change.contacts.begin();
+    const auto addCameBefore = [&](const BodyPair& end) {
+        while (next != change.contacts.end() && BodyPair{next->a, next->b} < end) {
+            ContactPair pair{{next->a, next->b}, static_cast<std::uint32_t>(changed_contacts_.size()), 0};
+            for (; next != change.contacts.end() && next->a == pair.a && next->b == pair.b; ++next, ++pair.count) {
+                changed_contacts_.push_back(*next);
+            }
+            changed_pairs_.push_back(pair);
+        }
+    };
+    for (ContactPair pair : pairs()) {
+        if ((change.left[pair.a] | change.left[pair.b]) != 0) continue;
+        addCameBefore(pair);
+        if (pair.touches()) {
+            const auto first = contacts.begin() + pair.first;
+            pair.first = static_cast<std::uint32_t>(changed_contacts_.size());
+            changed_contacts_.insert(changed_contacts_.end(), first, first + pair.count);
+        }
+        changed_pairs_.push_back(pair);
+    }
+    addCameBefore({UINT32_MAX, UINT32_MAX});
+    near_pairs_.replace(change.left, changed_pairs_);
+    contacts.swap(changed_contacts_);
+    came_.insert(came_.end(), change.came.begin(), change.came.end());
+}
+
 /// Compares every body with where it was detected last.
 void PairTable::findUnmoved(const PairsInput& input) {
     const BodyStorage& bodies = input.bodies;
@@ -148,6 +177,9 @@ void PairTable::findUnmoved(const PairsInput& input) {
             unmoved_[i] = known && same ? 1 : 0;
         }
     });
+    // What was found of them elsewhere is not known here.
+    for (const BodyIndex i : came_) unmoved_[i] = 0;
+    came_.clear();
 }
 
 void PairTable::findBounds(const PairsInput& input) {

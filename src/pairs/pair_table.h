@@ -25,6 +25,13 @@ struct PairsInput {
     const Executor& executor;
 };
 
+/// Bodies that come and go between two detections.
+struct PairChange {
+    std::span<const std::uint8_t> left;  ///< [slots] 1 = its body left
+    std::span<const BodyIndex> came;
+    std::span<const Contact> contacts;  ///< of those that came, sorted by (a, b)
+};
+
 /// The bounds that a detection searches a body with: grown by the margin, and by the way ahead [m, W].
 /// @param ahead out: how the body goes on, where the range looks ahead
 Bounds searchedBounds(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, BodyAhead& ahead);
@@ -48,6 +55,10 @@ class PairTable {
     /// To be called when bodies and contacts are others: all pairs are those of the contacts.
     /// @param contacts sorted by (a, b)
     void adopt(std::span<const Contact> contacts);
+
+    /// To be called when some bodies left their slots, with their contacts, and others came with theirs: all else
+    /// stays.
+    void change(const PairChange& change, std::vector<Contact>& contacts);
 
     /// All of them, sorted by (a, b), whether they touch or not.
     std::span<const ContactPair> pairs() const { return near_pairs_.pairs(); }
@@ -73,6 +84,9 @@ class PairTable {
     std::vector<Bounds> bounds_;         ///< [slots]
     std::vector<FoundContacts> parts_;   ///< [threads]
     ContactJoiner joiner_;
+    std::vector<BodyIndex> came_;             ///< since the last detection
+    std::vector<ContactPair> changed_pairs_;  ///< kept memory
+    std::vector<Contact> changed_contacts_;   ///< kept memory
 };
 
 }  // namespace cairn

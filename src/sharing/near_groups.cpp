@@ -35,13 +35,23 @@ Bounds unpackBounds(Unpacker& in) {
 
 void NearGroups::find(const NearGroupsInput& input, const Executor& executor) {
     begin(input);
+    searchAll(input);
     connect(input, executor);
     addBoxes(input);
 }
 
-void NearGroups::find(const NearGroupsInput& input, const Executor& executor, Ranks& ranks) {
+bool NearGroups::meetOthers(const NearGroupsInput& input, const Executor& executor, Ranks& ranks) {
     begin(input);
     tellCovers(input, ranks);
+    search_->findPairs({.kind = kind_, .bounds = cover_, .still = others_}, executor, pairs_);
+    const bool meets =
+        std::ranges::any_of(pairs_, [&](const BodyPair& pair) { return (others_[pair.a] | others_[pair.b]) != 0; });
+    const std::vector<std::uint8_t> all = gatherAll(ranks, static_cast<std::uint8_t>(meets ? 1 : 0));
+    return std::ranges::find(all, 1) != all.end();
+}
+
+void NearGroups::findAcross(const NearGroupsInput& input, const Executor& executor, Ranks& ranks) {
+    searchAll(input);
     connect(input, executor);
     addBoxes(input);
     connectAcross(ranks);
@@ -51,21 +61,25 @@ void NearGroups::begin(const NearGroupsInput& input) {
     const std::size_t slots = input.kind.size();
     parent_.resize(slots);
     std::iota(parent_.begin(), parent_.end(), 0);
-    kind_.resize(slots);
-    for (std::size_t i = 0; i < slots; ++i) {
-        kind_[i] = input.kind[i] == BodyKind::dynamic ? BodyKind::dynamic : BodyKind::hole;
-    }
+    kind_.assign(slots, BodyKind::hole);
     others_.assign(slots, 0);
     cover_.assign(input.cover.begin(), input.cover.end());
     box_.assign(slots, emptyBounds());
 }
 
-/// Lets every rank know the covers of the bodies that come near its own.
+/// All bodies of this rank are searched, with those of others that were told.
+void NearGroups::searchAll(const NearGroupsInput& input) {
+    for (std::size_t i = 0; i < kind_.size(); ++i) {
+        if (input.kind[i] == BodyKind::dynamic) kind_[i] = BodyKind::dynamic;
+    }
+}
+
+/// Lets every rank know the covers of the bodies that come near its own; these and those that it told of are searched.
 void NearGroups::tellCovers(const NearGroupsInput& input, Ranks& ranks) {
     const auto own = static_cast<std::size_t>(ranks.rank());
     Bounds all = emptyBounds();
     for (BodyIndex i = 0; i < kind_.size(); ++i) {
-        if (kind_[i] == BodyKind::dynamic) include(all, cover_[i]);
+        if (input.kind[i] == BodyKind::dynamic) include(all, cover_[i]);
     }
     std::vector<std::byte> message;
     packBounds(message, all);
@@ -76,11 +90,12 @@ void NearGroups::tellCovers(const NearGroupsInput& input, Ranks& ranks) {
     }
     Ranks::Messages out(reach.size());
     for (BodyIndex i = 0; i < kind_.size(); ++i) {
-        if (kind_[i] != BodyKind::dynamic) continue;
+        if (input.kind[i] != BodyKind::dynamic) continue;
         for (std::size_t to = 0; to < out.size(); ++to) {
             if (to == own || !cover_[i].overlaps(reach[to])) continue;
             pack(out[to], i);
-            packBounds(out[to], input.cover[i]);
+            packBounds(out[to], cover_[i]);
+            kind_[i] = BodyKind::dynamic;
         }
     }
     for (const auto& told : ranks.exchange(std::move(out))) {

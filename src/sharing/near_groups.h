@@ -27,8 +27,11 @@ class NearGroups {
   public:
     /// Of a world that this rank has as a whole.
     void find(const NearGroupsInput& input, const Executor& executor);
-    /// Of a world that ranks share; to be called by all of them.
-    void find(const NearGroupsInput& input, const Executor& executor, Ranks& ranks);
+    /// Of a world that ranks share; to be called by all of them, after meetOthers(), which need not have found any.
+    void findAcross(const NearGroupsInput& input, const Executor& executor, Ranks& ranks);
+    /// Lets ranks know each other's bodies where these come near. @return whether bodies of any two ranks are in one
+    /// group; if not, no rank needs to know its groups
+    bool meetOthers(const NearGroupsInput& input, const Executor& executor, Ranks& ranks);
 
     /// The lowest body of the group of a body of this rank, which names the group on all ranks.
     BodyIndex groupOf(BodyIndex i) { return representative(i); }
@@ -37,6 +40,7 @@ class NearGroups {
 
   private:
     void begin(const NearGroupsInput& input);
+    void searchAll(const NearGroupsInput& input);
     void tellCovers(const NearGroupsInput& input, Ranks& ranks);
     void connect(const NearGroupsInput& input, const Executor& executor);
     void addBoxes(const NearGroupsInput& input);
@@ -46,7 +50,7 @@ class NearGroups {
 
     std::unique_ptr<BroadPhase> search_ = makeBroadPhase(BroadPhaseKind::hash_grids);
     std::vector<BodyIndex> parent_;     ///< [slots]
-    std::vector<BodyKind> kind_;        ///< [slots] dynamic for bodies of this rank and of others near them
+    std::vector<BodyKind> kind_;        ///< [slots] dynamic for those that are searched
     std::vector<std::uint8_t> others_;  ///< [slots] 1 = of another rank
     std::vector<Bounds> cover_;         ///< [slots]
     std::vector<Bounds> box_;           ///< [slots] of groups, around the centres of their bodies [m, W]

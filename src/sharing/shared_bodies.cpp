@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <tuple>
 #include <utility>
 
 #include "messages/packing.h"
@@ -19,6 +18,9 @@ constexpr double slack = 0.1;
 /// … and by its way in the time that follows [s].
 constexpr double time_ahead = 1.0 / 60;
 
+/// Time steps after which bodies that went into the region of another rank and met nobody go there.
+constexpr std::int64_t home_every = 30;
+
 /// Stands for no rank.
 constexpr std::uint32_t no_rank = UINT32_MAX;
 
@@ -31,18 +33,6 @@ std::uint64_t mixed(std::uint64_t x) {
     return x ^ (x >> 31U);
 }
 
-bool comesBefore(const Contact& a, const Contact& b) {
-    return std::tie(a.a, a.b) < std::tie(b.a, b.b);
-}
-
-/// Puts contacts among others; those of a pair all come from one rank, in their order.
-void mergeContacts(std::vector<Contact>& contacts, const std::vector<Contact>& came) {
-    const auto middle = static_cast<std::ptrdiff_t>(contacts.size());
-    contacts.insert(contacts.end(), came.begin(), came.end());
-    std::stable_sort(contacts.begin() + middle, contacts.end(), comesBefore);
-    std::inplace_merge(contacts.begin(), contacts.begin() + middle, contacts.end(), comesBefore);
-}
-
 }  // namespace
 
 SharedBodies::SharedBodies(Ranks& ranks, const Partition& partition) : ranks_(ranks), partition_(partition) {
@@ -53,7 +43,10 @@ void SharedBodies::settle(const DealtOut& world) {
     if (whole_) return divide(world);
     if (!isDue(world)) return;
     coverAll(world);
-    groups_.find(groupsInput(world), world.executor, ranks_);
+    const NearGroupsInput input = groupsInput(world);
+    // Where no bodies of two ranks meet, each may stay where it is.
+    if (!groups_.meetOthers(input, world.executor, ranks_) && !goHome(world.step)) return;
+    groups_.findAcross(input, world.executor, ranks_);
     findOwners(world);
     moveHouse(world);
 }
@@ -104,10 +97,15 @@ void SharedBodies::gather(const DealtOut& world) {
     for (const Contact& contact : world.contacts) packContact(message, contact);
     Ranks::Messages told = tellAll(ranks_, message);
     told[static_cast<std::size_t>(ranks_.rank())].clear();
+    left_.assign(bodies.slots(), 0);
     takeIn(world, told);
+    world.pairs.change({left_, came_, contacts_}, world.contacts);
     bodies.adoptSlots(bodies.nextNumber());
-    world.pairs.adopt(world.contacts);
     whole_ = true;
+}
+
+bool SharedBodies::goHome(std::int64_t step) const {
+    return partition_.restless || step % home_every == 0 || isRebalanced(step);
 }
 
 /// Whether a body of this rank may be elsewhere, or look farther, than when its cover was last compared.
@@ -120,8 +118,7 @@ bool SharedBodies::mayHaveLeft(const BodyStorage& bodies, BodyIndex i) const {
 /// Asks all ranks whether groups must be found anew.
 bool SharedBodies::isDue(const DealtOut& world) {
     const BodyStorage& bodies = world.bodies;
-    const bool rebalances = partition_.rebalance_every > 0 && world.step % partition_.rebalance_every == 0;
-    std::uint8_t wish = partition_.restless || rebalances ? groups_anew : nothing;
+    std::uint8_t wish = goHome(world.step) ? groups_anew : nothing;
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (kind_[i] == BodyKind::dynamic && bodies.kind[i] == BodyKind::fixed) wish |= tell_frozen;
         if ((wish & groups_anew) != 0 || !isOwn(bodies, i) || !mayHaveLeft(bodies, i)) continue;
@@ -131,7 +128,7 @@ bool SharedBodies::isDue(const DealtOut& world) {
     std::uint8_t all = nothing;
     for (const std::uint8_t one : gatherAll(ranks_, wish)) all |= one;
     if ((all & tell_frozen) != 0) tellFrozen(world.bodies);
-    if (rebalances) cut(world);
+    if (isRebalanced(world.step)) cut(world);
     return all != nothing;
 }
 
@@ -176,7 +173,10 @@ void SharedBodies::tellFrozen(BodyStorage& bodies) {
     for (const auto& told : tellAll(ranks_, message)) {
         for (Unpacker in(told); !in.isAtEnd();) {
             const auto i = in.get<BodyIndex>();
+            const bool is_new = bodies.kind[i] == BodyKind::hole;
             unpackBody(in, bodies, i);
+            // Here nothing was found of it yet.
+            if (is_new) bodies.detected_position[i] = nowhere();
             kind_[i] = bodies.kind[i] = BodyKind::fixed;
             bodies.updateMassProperties(i);
             any = true;
@@ -218,6 +218,7 @@ bool SharedBodies::moveAway(const DealtOut& world, Ranks::Messages& out) {
     const auto own = static_cast<std::uint32_t>(ranks_.rank());
     std::vector<std::uint64_t> counts(out.size(), 0);
     bool any = false;
+    left_.assign(bodies.slots(), 0);
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (!isOwn(bodies, i) || owner_[i] == own) continue;
         std::vector<std::byte>& message = out[owner_[i]];
@@ -225,45 +226,43 @@ bool SharedBodies::moveAway(const DealtOut& world, Ranks::Messages& out) {
         ++counts[owner_[i]];
         packResident(message, world, i);
         leave(bodies, i);
+        left_[i] = 1;
         any = true;
     }
     if (!any) return false;
     for (std::size_t to = 0; to < out.size(); ++to) {
         if (counts[to] > 0) std::memcpy(out[to].data(), &counts[to], sizeof(counts[to]));
     }
-    std::erase_if(world.contacts, [&](const Contact& contact) {
+    for (const Contact& contact : world.contacts) {
         const std::uint32_t holder = holderOf(contact);
-        if (holder == no_rank || holder == own) return false;
-        packContact(out[holder], contact);
-        return true;
-    });
+        if (holder != no_rank && holder != own) packContact(out[holder], contact);
+    }
     return true;
 }
 
-/// Takes in what others sent. @return whether there was anything
-bool SharedBodies::takeIn(const DealtOut& world, const Ranks::Messages& in) {
+/// Takes in what others sent.
+void SharedBodies::takeIn(const DealtOut& world, const Ranks::Messages& in) {
     came_.clear();
-    bool any = false;
+    contacts_.clear();
     for (const auto& message : in) {
         if (message.empty()) continue;
         Unpacker reader(message);
         for (auto left = reader.get<std::uint64_t>(); left > 0; --left) {
-            unpackResident(reader, world);
-            any = true;
+            came_.push_back(unpackResident(reader, world));
         }
-        while (!reader.isAtEnd()) came_.push_back(unpackContact(reader));
+        while (!reader.isAtEnd()) contacts_.push_back(unpackContact(reader));
     }
-    if (!came_.empty()) mergeContacts(world.contacts, came_);
-    return any;
+    // Those of a pair all come from one rank, in their order.
+    std::ranges::stable_sort(contacts_, {}, [](const Contact& contact) { return BodyPair{contact.a, contact.b}; });
 }
 
 void SharedBodies::moveHouse(const DealtOut& world) {
     Ranks::Messages out(static_cast<std::size_t>(ranks_.size()));
     const bool left = moveAway(world, out);
-    const bool came = takeIn(world, ranks_.exchange(std::move(out)));
-    if (!left && !came) return;
+    takeIn(world, ranks_.exchange(std::move(out)));
+    if (!left && came_.empty()) return;
+    world.pairs.change({left_, came_, contacts_}, world.contacts);
     world.bodies.adoptSlots(world.bodies.nextNumber());
-    world.pairs.adopt(world.contacts);
 }
 
 /// Appends a body with what this room and the step remember of it.
@@ -275,7 +274,7 @@ void SharedBodies::packResident(std::vector<std::byte>& message, const DealtOut&
     if (!world.begun.empty()) pack(message, world.begun[i]);
 }
 
-void SharedBodies::unpackResident(Unpacker& in, const DealtOut& world) {
+BodyIndex SharedBodies::unpackResident(Unpacker& in, const DealtOut& world) {
     const auto i = in.get<BodyIndex>();
     unpackBody(in, world.bodies, i);
     world.bodies.kind[i] = BodyKind::dynamic;
@@ -284,6 +283,7 @@ void SharedBodies::unpackResident(Unpacker& in, const DealtOut& world) {
     covered_[i] = 1;
     owner_[i] = static_cast<std::uint32_t>(ranks_.rank());
     if (!world.begun.empty()) world.begun[i] = in.get<Vec3>();
+    return i;
 }
 
 /// Leaves a slot to the rank that has its body.

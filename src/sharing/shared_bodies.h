@@ -64,14 +64,19 @@ class SharedBodies {
     void tellFrozen(BodyStorage& bodies);
     void leave(BodyStorage& bodies, BodyIndex i) const;
     void packResident(std::vector<std::byte>& message, const DealtOut& world, BodyIndex i) const;
-    void unpackResident(Unpacker& in, const DealtOut& world);
+    BodyIndex unpackResident(Unpacker& in, const DealtOut& world);
     NearGroupsInput groupsInput(const DealtOut& world) const;
     bool mayHaveLeft(const BodyStorage& bodies, BodyIndex i) const;
     void findOwners(const DealtOut& world);
     int ownerOf(const DealtOut& world, BodyIndex group) const;
     bool moveAway(const DealtOut& world, Ranks::Messages& out);
-    bool takeIn(const DealtOut& world, const Ranks::Messages& in);
+    void takeIn(const DealtOut& world, const Ranks::Messages& in);
     std::uint32_t holderOf(const Contact& contact) const;
+    bool isRebalanced(std::int64_t step) const {
+        return partition_.rebalance_every > 0 && step % partition_.rebalance_every == 0;
+    }
+    /// Whether all bodies go to the regions that they are in.
+    bool goHome(std::int64_t step) const;
     bool isOwn(const BodyStorage& bodies, BodyIndex i) const { return bodies.kind[i] == BodyKind::dynamic; }
 
     Ranks& ranks_;
@@ -82,7 +87,9 @@ class SharedBodies {
     std::vector<std::uint8_t> covered_;  ///< [slots] 1 = has a cover
     std::vector<std::uint32_t> owner_;   ///< [slots] of own bodies: where they go
     std::vector<BodyAhead> ahead_;       ///< [slots] kept memory
-    std::vector<Contact> came_;          ///< kept memory
+    std::vector<std::uint8_t> left_;     ///< [slots] 1 = went to another rank in this step
+    std::vector<BodyIndex> came_;        ///< in this step
+    std::vector<Contact> contacts_;      ///< of those, sorted by (a, b)
     std::optional<Regions> regions_;
     NearGroups groups_;
 };
