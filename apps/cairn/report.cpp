@@ -20,11 +20,11 @@ double quantile(const std::vector<double>& sorted, double part) {
     return sorted[std::max<std::size_t>(rank, 1) - 1];
 }
 
+/// @param plane a body whose shape is a half-space
 bool isBehind(const SceneBody& plane, const Vec3& p_W) {
-    const auto* half_space = std::get_if<HalfSpace>(&plane.shape);
-    if (half_space == nullptr) return false;
+    const auto& half_space = std::get<HalfSpace>(plane.shape);
     const Pose pose{plane.position, plane.orientation.normalized()};
-    return half_space->normal.normalized().dot(pose.toInner(p_W)) < half_space->offset;
+    return half_space.normal.normalized().dot(pose.toInner(p_W)) < half_space.offset;
 }
 
 std::string row(std::string_view name, std::string_view value) {
@@ -54,6 +54,10 @@ void Measurements::add(double ms, const Statistics& step) {
 std::size_t countLost(const SceneRun& run) {
     const World& world = run.world();
     const std::vector<SceneBody>& bodies = run.scene().bodies;
+    std::vector<const SceneBody*> planes;
+    for (const SceneBody& body : bodies) {
+        if (std::holds_alternative<HalfSpace>(body.shape)) planes.push_back(&body);
+    }
     std::size_t lost = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const BodyId id = run.ids()[i];
@@ -62,8 +66,7 @@ std::size_t countLost(const SceneRun& run) {
         const Vec3 p_W = world.centreOfMass(id);
         const bool faulty = std::any_of(world.faults().begin(), world.faults().end(),
                                         [&](const FaultInfo& fault) { return fault.body == id; });
-        const bool behind =
-            std::any_of(bodies.begin(), bodies.end(), [&](const SceneBody& body) { return isBehind(body, p_W); });
+        const bool behind = std::ranges::any_of(planes, [&](const SceneBody* plane) { return isBehind(*plane, p_W); });
         if (faulty || behind) ++lost;
     }
     return lost;

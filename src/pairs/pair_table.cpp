@@ -121,6 +121,7 @@ void PairTable::detect(const PairsInput& input, std::vector<Contact>& contacts) 
     joiner_.join(bodies, input.materials, input.executor, parts_, contacts);
     input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
+            if (bodies.kind[i] == BodyKind::hole) continue;
             bodies.detected_position[i] = bodies.position[i];
             bodies.detected_orientation[i] = bodies.orientation[i];
         }
@@ -172,6 +173,7 @@ void PairTable::findUnmoved(const PairsInput& input) {
     unmoved_.resize(bodies.slots());
     input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
+            if (bodies.kind[i] == BodyKind::hole) continue;
             const bool same = bodies.detected_position[i] == bodies.position[i] &&
                               bodies.detected_orientation[i].coeffs() == bodies.orientation[i].coeffs();
             unmoved_[i] = known && same ? 1 : 0;

@@ -32,6 +32,21 @@ void forTakenMembers(AnyContact& contact, const Visit& visit) {
     visit(contact.angular_impulse);
 }
 
+/// Calls visit(member) for all that steps change of a joint.
+template <class AnyJoint, class Visit>
+void forChangingMembers(AnyJoint& joint, const Visit& visit) {
+    visit(joint.present);
+    visit(joint.generation);
+    visit(joint.redundant);
+    visit(joint.impulse);
+    visit(joint.angular_impulse);
+    visit(joint.last_impulse);
+    visit(joint.last_angular_impulse);
+    visit(joint.fixed_impulse);
+    visit(joint.fixed_angular_impulse);
+    for (auto& axis : joint.free) visit(axis.position);
+}
+
 }  // namespace
 
 void packBody(std::vector<std::byte>& message, const BodyStorage& bodies, BodyIndex i) {
@@ -52,6 +67,14 @@ Contact unpackContact(Unpacker& in) {
     Contact contact;
     forTakenMembers(contact, [&](auto& member) { member = in.get<std::remove_cvref_t<decltype(member)>>(); });
     return contact;
+}
+
+void packJoint(std::vector<std::byte>& message, const Joint& joint) {
+    forChangingMembers(joint, [&](const auto& member) { pack(message, member); });
+}
+
+void unpackJoint(Unpacker& in, Joint& joint) {
+    forChangingMembers(joint, [&](auto& member) { member = in.get<std::remove_cvref_t<decltype(member)>>(); });
 }
 
 }  // namespace cairn

@@ -1,4 +1,4 @@
-/// @file A body, and the contacts that it takes along, as part of a message to another rank.
+/// @file A body, and the contacts and joints that it takes along, as part of a message to another rank.
 #pragma once
 
 #include <cstddef>
@@ -6,6 +6,7 @@
 
 #include "body/body_storage.h"
 #include "body/contact.h"
+#include "joints/joint.h"
 #include "messages/packing.h"
 
 namespace cairn {
@@ -20,5 +21,10 @@ void unpackBody(Unpacker& in, BodyStorage& bodies, BodyIndex i);
 void packContact(std::vector<std::byte>& message, const Contact& contact);
 /// Reads the same.
 Contact unpackContact(Unpacker& in);
+
+/// Appends what steps change of a joint.
+void packJoint(std::vector<std::byte>& message, const Joint& joint);
+/// Reads the same into the joint.
+void unpackJoint(Unpacker& in, Joint& joint);
 
 }  // namespace cairn

@@ -63,8 +63,11 @@ void NearGroups::begin(const NearGroupsInput& input) {
     std::iota(parent_.begin(), parent_.end(), 0);
     kind_.assign(slots, BodyKind::hole);
     others_.assign(slots, 0);
-    cover_.assign(input.cover.begin(), input.cover.end());
-    box_.assign(slots, emptyBounds());
+    cover_.resize(slots);
+    box_.resize(slots);
+    for (std::size_t i = 0; i < slots; ++i) {
+        if (input.kind[i] == BodyKind::dynamic) cover_[i] = input.cover[i];
+    }
 }
 
 /// All bodies of this rank are searched, with those of others that were told.
@@ -132,6 +135,9 @@ void NearGroups::connect(const NearGroupsInput& input, const Executor& executor)
 
 void NearGroups::addBoxes(const NearGroupsInput& input) {
     for (BodyIndex i = 0; i < input.kind.size(); ++i) {
+        if (input.kind[i] == BodyKind::dynamic) box_[i] = emptyBounds();
+    }
+    for (BodyIndex i = 0; i < input.kind.size(); ++i) {
         if (input.kind[i] != BodyKind::dynamic) continue;
         include(box_[representative(i)], {input.position[i], input.position[i]});
     }
@@ -166,6 +172,8 @@ void NearGroups::connectAcross(Ranks& ranks) {
             join(pair.a, pair.b);
         }
     }
+    // All parts of these groups were told, those of this rank as well.
+    for (const auto& [group, box] : boxes) box_[representative(group)] = emptyBounds();
     for (const auto& [group, box] : boxes) include(box_[representative(group)], box);
 }
 

@@ -1,7 +1,6 @@
 #include "sharing/shared_bodies.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 #include "messages/packing.h"
@@ -24,6 +23,9 @@ constexpr std::int64_t home_every = 30;
 /// Stands for no rank.
 constexpr std::uint32_t no_rank = UINT32_MAX;
 
+/// What follows in a message to another rank.
+enum class Item : std::uint8_t { body, contact, joint };
+
 /// What a rank asks of the others at the beginning of a step.
 enum Wish : std::uint8_t { nothing = 0, groups_anew = 1, tell_frozen = 2 };
 
@@ -33,22 +35,31 @@ std::uint64_t mixed(std::uint64_t x) {
     return x ^ (x >> 31U);
 }
 
+/// A joint that is on another rank must not break here by what it bore.
+void forgetLoad(Joint& joint) {
+    joint.impulse.setZero();
+    joint.angular_impulse.setZero();
+}
+
 }  // namespace
 
 SharedBodies::SharedBodies(Ranks& ranks, const Partition& partition) : ranks_(ranks), partition_(partition) {
     requirePartition(partition, ranks.size());
 }
 
-void SharedBodies::settle(const DealtOut& world) {
-    if (whole_) return divide(world);
-    if (!isDue(world)) return;
+bool SharedBodies::settle(const DealtOut& world) {
+    if (whole_) {
+        divide(world);
+        return true;
+    }
+    if (!isDue(world)) return false;
     coverAll(world);
     const NearGroupsInput input = groupsInput(world);
     // Where no bodies of two ranks meet, each may stay where it is.
-    if (!groups_.meetOthers(input, world.executor, ranks_) && !goHome(world.step)) return;
+    if (!groups_.meetOthers(input, world.executor, ranks_) && !goHome(world.step)) return false;
     groups_.findAcross(input, world.executor, ranks_);
     findOwners(world);
-    moveHouse(world);
+    return moveHouse(world);
 }
 
 /// Every rank keeps its part of what all have.
@@ -73,6 +84,10 @@ void SharedBodies::divide(const DealtOut& world) {
         const std::uint32_t holder = holderOf(contact);
         return holder == no_rank ? own != 0 : holder != own;
     });
+    for (Joint& joint : world.joints) {
+        const BodyIndex end = endOf(joint);
+        if (end != Joint::world && owner_[end] != own) forgetLoad(joint);
+    }
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (isOwn(bodies, i) && owner_[i] != own) leave(bodies, i);
     }
@@ -85,16 +100,21 @@ void SharedBodies::gather(const DealtOut& world) {
     if (whole_) return;
     BodyStorage& bodies = world.bodies;
     tellFrozen(bodies);
-    std::uint64_t count = 0;
     std::vector<std::byte> message;
-    pack(message, count);
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (!isOwn(bodies, i)) continue;
-        ++count;
-        packResident(message, world, i);
+        if (isOwn(bodies, i)) packResident(message, world, i);
     }
-    std::memcpy(message.data(), &count, sizeof(count));
-    for (const Contact& contact : world.contacts) packContact(message, contact);
+    for (const Contact& contact : world.contacts) {
+        pack(message, Item::contact);
+        packContact(message, contact);
+    }
+    for (std::uint32_t j = 0; j < world.joints.size(); ++j) {
+        const BodyIndex end = endOf(world.joints[j]);
+        if (end == Joint::world || !isOwn(bodies, end)) continue;
+        pack(message, Item::joint);
+        pack(message, j);
+        packJoint(message, world.joints[j]);
+    }
     Ranks::Messages told = tellAll(ranks_, message);
     told[static_cast<std::size_t>(ranks_.rank())].clear();
     left_.assign(bodies.slots(), 0);
@@ -212,30 +232,46 @@ std::uint32_t SharedBodies::holderOf(const Contact& contact) const {
     return kind_[contact.b] == BodyKind::dynamic ? owner_[contact.b] : no_rank;
 }
 
+/// A body that a joint goes along with: one of its ends that can move; Joint::world if none can.
+BodyIndex SharedBodies::endOf(const Joint& joint) const {
+    if (isMovable(kind_, joint.a)) return joint.a;
+    return isMovable(kind_, joint.b) ? joint.b : Joint::world;
+}
+
 /// Takes the bodies that belong elsewhere out of this world. @param out gets them @return whether there are any
 bool SharedBodies::moveAway(const DealtOut& world, Ranks::Messages& out) {
     BodyStorage& bodies = world.bodies;
     const auto own = static_cast<std::uint32_t>(ranks_.rank());
-    std::vector<std::uint64_t> counts(out.size(), 0);
     bool any = false;
     left_.assign(bodies.slots(), 0);
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (!isOwn(bodies, i) || owner_[i] == own) continue;
-        std::vector<std::byte>& message = out[owner_[i]];
-        if (message.empty()) pack(message, std::uint64_t{0});
-        ++counts[owner_[i]];
-        packResident(message, world, i);
+        packResident(out[owner_[i]], world, i);
         leave(bodies, i);
         left_[i] = 1;
         any = true;
     }
     if (!any) return false;
-    for (std::size_t to = 0; to < out.size(); ++to) {
-        if (counts[to] > 0) std::memcpy(out[to].data(), &counts[to], sizeof(counts[to]));
-    }
     for (const Contact& contact : world.contacts) {
         const std::uint32_t holder = holderOf(contact);
-        if (holder != no_rank && holder != own) packContact(out[holder], contact);
+        if (holder == no_rank || holder == own) continue;
+        pack(out[holder], Item::contact);
+        packContact(out[holder], contact);
+    }
+    for (std::uint32_t j = 0; j < world.joints.size(); ++j) {
+        Joint& joint = world.joints[j];
+        const auto sendWith = [&](BodyIndex end) {
+            pack(out[owner_[end]], Item::joint);
+            pack(out[owner_[end]], j);
+            packJoint(out[owner_[end]], joint);
+        };
+        const bool with_a = isMovable(kind_, joint.a) && left_[joint.a] != 0;
+        const bool with_b = isMovable(kind_, joint.b) && left_[joint.b] != 0;
+        if (!with_a && !with_b) continue;
+        if (with_a) sendWith(joint.a);
+        // The ends of a joint that broke need not go together; both must know.
+        if (with_b && !(with_a && owner_[joint.a] == owner_[joint.b])) sendWith(joint.b);
+        forgetLoad(joint);
     }
     return true;
 }
@@ -245,28 +281,39 @@ void SharedBodies::takeIn(const DealtOut& world, const Ranks::Messages& in) {
     came_.clear();
     contacts_.clear();
     for (const auto& message : in) {
-        if (message.empty()) continue;
-        Unpacker reader(message);
-        for (auto left = reader.get<std::uint64_t>(); left > 0; --left) {
-            came_.push_back(unpackResident(reader, world));
+        for (Unpacker reader(message); !reader.isAtEnd();) {
+            switch (reader.get<Item>()) {
+                case Item::body:
+                    came_.push_back(unpackResident(reader, world));
+                    break;
+                case Item::contact:
+                    contacts_.push_back(unpackContact(reader));
+                    break;
+                case Item::joint: {
+                    const auto j = reader.get<std::uint32_t>();
+                    unpackJoint(reader, world.joints[j]);
+                    break;
+                }
+            }
         }
-        while (!reader.isAtEnd()) contacts_.push_back(unpackContact(reader));
     }
     // Those of a pair all come from one rank, in their order.
     std::ranges::stable_sort(contacts_, {}, [](const Contact& contact) { return BodyPair{contact.a, contact.b}; });
 }
 
-void SharedBodies::moveHouse(const DealtOut& world) {
+bool SharedBodies::moveHouse(const DealtOut& world) {
     Ranks::Messages out(static_cast<std::size_t>(ranks_.size()));
     const bool left = moveAway(world, out);
     takeIn(world, ranks_.exchange(std::move(out)));
-    if (!left && came_.empty()) return;
+    if (!left && came_.empty()) return false;
     world.pairs.change({left_, came_, contacts_}, world.contacts);
     world.bodies.adoptSlots(world.bodies.nextNumber());
+    return true;
 }
 
 /// Appends a body with what this room and the step remember of it.
 void SharedBodies::packResident(std::vector<std::byte>& message, const DealtOut& world, BodyIndex i) const {
+    pack(message, Item::body);
     pack(message, i);
     packBody(message, world.bodies, i);
     pack(message, cover_[i].lower);

@@ -11,6 +11,7 @@
 #include "body/body_storage.h"
 #include "body/contact.h"
 #include "cairn/ranks.h"
+#include "joints/joint.h"
 #include "messages/packing.h"
 #include "pairs/pair_table.h"
 #include "regions/regions.h"
@@ -23,6 +24,7 @@ struct DealtOut {
     BodyStorage& bodies;
     PairTable& pairs;
     std::vector<Contact>& contacts;  ///< of the last step, sorted by (a, b)
+    std::span<Joint> joints;
     std::span<Vec3> begun;           ///< [slots] positions at the beginning of the step, or empty [m, W]
     std::span<const BodyPair> tied;  ///< bodies that belong together, wherever they are
     const DetectionRange& range;     ///< of the detection that follows
@@ -49,7 +51,8 @@ class SharedBodies {
     }
 
     /// Brings the bodies to where they belong, before a detection. If the world is whole it is divided afterwards.
-    void settle(const DealtOut& world);
+    /// @return whether bodies left or came
+    bool settle(const DealtOut& world);
     /// Makes a divided world whole: all ranks have all bodies, with the contacts of the last step.
     void gather(const DealtOut& world);
     /// To be called when the bodies are others, the same on all ranks.
@@ -57,7 +60,7 @@ class SharedBodies {
 
   private:
     void divide(const DealtOut& world);
-    void moveHouse(const DealtOut& world);
+    bool moveHouse(const DealtOut& world);
     bool isDue(const DealtOut& world);
     void coverAll(const DealtOut& world);
     void cut(const DealtOut& world);
@@ -71,6 +74,7 @@ class SharedBodies {
     int ownerOf(const DealtOut& world, BodyIndex group) const;
     bool moveAway(const DealtOut& world, Ranks::Messages& out);
     void takeIn(const DealtOut& world, const Ranks::Messages& in);
+    BodyIndex endOf(const Joint& joint) const;
     std::uint32_t holderOf(const Contact& contact) const;
     bool isRebalanced(std::int64_t step) const {
         return partition_.rebalance_every > 0 && step % partition_.rebalance_every == 0;

@@ -6,17 +6,36 @@
 #include <string>
 #include <tuple>
 
+#include "joints/joint_kinds.h"
 #include "messages/packing.h"
+#include "world/joints.h"
 #include "world/quarantine.h"
 
 namespace cairn {
 
 namespace {
 
+void tie(std::vector<BodyPair>& tied, BodyIndex a, BodyIndex b) {
+    if (a != Joint::world && b != Joint::world) tied.push_back({a, b});
+}
+
 std::vector<BodyPair> tiedBodies(const WorldState& world) {
     std::vector<BodyPair> tied;
     for (const Spring& spring : world.springs) {
-        if (spring.present && spring.b != Spring::world_point) tied.push_back({spring.a, spring.b});
+        if (spring.present) tie(tied, spring.a, spring.b);
+    }
+    for (const Joint& joint : world.joints) {
+        if (!joint.present) continue;
+        if (!entryOf(joint.kind).uses.couples) {
+            tie(tied, joint.a, joint.b);
+            continue;
+        }
+        // What is at one end of a coupling is not the same on all ranks: it depends on who is there.
+        const Joint& first = world.joints[joint.first];
+        const Joint& second = world.joints[joint.second];
+        for (const BodyIndex a : {first.a, first.b}) {
+            for (const BodyIndex b : {second.a, second.b}) tie(tied, a, b);
+        }
     }
     return tied;
 }
@@ -35,6 +54,18 @@ FaultInfo unpackFault(Unpacker& in) {
     fault.what.resize(in.get<std::uint64_t>());
     for (char& letter : fault.what) letter = in.get<char>();
     return fault;
+}
+
+/// Lists who is inside of the sensors of all ranks.
+void gatherSensed(WorldState& world) {
+    std::vector<Sensed>& sensed = world.data.sensed;
+    std::vector<std::byte> message;
+    for (const Sensed& one : sensed) pack(message, one);
+    sensed.clear();
+    for (const auto& told : tellAll(world.shared->ranks(), message)) {
+        for (Unpacker in(told); !in.isAtEnd();) sensed.push_back(in.get<Sensed>());
+    }
+    std::ranges::sort(sensed, {}, [](const Sensed& one) { return std::tuple(one.sensor, one.body); });
 }
 
 /// Adds up what the ranks counted in the last step, and lists the faults of all.
@@ -63,16 +94,20 @@ void settleShared(WorldState& world, const DetectionRange& range) {
     const std::vector<BodyPair> tied = tiedBodies(world);
     std::span<Vec3> begun;
     if (world.settings.integration.exact_flight) begun = world.data.before.position;
-    world.shared->settle(
-        {world.bodies, world.data.pairs, world.data.contacts, begun, tied, range, world.steps, world.executor});
+    StepData& data = world.data;
+    const bool changed = world.shared->settle(
+        {world.bodies, data.pairs, data.contacts, world.joints, begun, tied, range, world.steps, world.executor});
+    if (changed) prepareJoints(world);
 }
 
 void gatherShared(WorldState& world) {
     if (world.shared == nullptr || world.shared->isWhole()) return;
     StepData& data = world.data;
-    world.shared->gather({world.bodies, data.pairs, data.contacts, {}, {}, {}, world.steps, world.executor});
+    world.shared->gather(
+        {world.bodies, data.pairs, data.contacts, world.joints, {}, {}, {}, world.steps, world.executor});
     buildBatches(world.bodies.kind, data.contacts, data.batch_scratch, data.batches, world.joints);
     listContacts(world.bodies.kind, data.contacts, data.contacts_of);
+    gatherSensed(world);
     gatherReports(world);
     world.lasting.reset();
     ++world.places_version;
@@ -89,13 +124,6 @@ void requireShareable(const WorldState& world) {
     const auto refuse = [](std::string_view what, std::string_view remedy) {
         throw InputError(fmt::format("{} cannot be shared among ranks yet; {}", what, remedy));
     };
-    const auto isSensor = [](std::uint8_t sensor) { return sensor != 0; };
-    if (std::ranges::any_of(world.joints, &Joint::present)) {
-        refuse("a world with joints", "run it on one rank, with --threads");
-    }
-    if (std::ranges::any_of(world.bodies.sensor, isSensor)) {
-        refuse("a world with sensors", "run it on one rank, with --threads");
-    }
     if (world.settings.diagnostics.diagnostics) {
         refuse("a world that measures diagnostics", "switch the setting off, or run it on one rank");
     }
