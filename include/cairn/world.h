@@ -314,8 +314,8 @@ class World {
     /// these and the fixed bodies only, and calls that change bodies or need all of them throw an InputError until
     /// gather() is called. Sums, such as stateHash() or kineticEnergy(), and contacts() are then of what this rank has:
     /// the state hashes of the ranks add up to that of the whole world.
-    /// @param ranks must outlive the world @throws InputError for diagnostics and events, which cannot be shared yet, and
-    /// for a grid that is not one for so many ranks
+    /// @param ranks must outlive the world @throws InputError for diagnostics and events, which cannot be shared yet,
+    /// and for a grid that is not one for so many ranks
     void share(Ranks& ranks, const Partition& partition = {});
     /// Gives all ranks all bodies, with contacts, statistics and faults of the whole world, until the next step; to be
     /// called by all of them, who may then do what they want as on one rank, if all do the same. Costs as much as

@@ -93,6 +93,7 @@ void SharedBodies::divide(const DealtOut& world) {
     }
     bodies.adoptSlots(bodies.nextNumber());
     world.pairs.adopt(world.contacts);
+    bodies.setLending(true);
     whole_ = false;
 }
 
@@ -121,6 +122,7 @@ void SharedBodies::gather(const DealtOut& world) {
     takeIn(world, told);
     world.pairs.change({left_, came_, contacts_}, world.contacts);
     bodies.adoptSlots(bodies.nextNumber());
+    bodies.setLending(false);
     whole_ = true;
 }
 

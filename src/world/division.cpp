@@ -8,6 +8,7 @@
 
 #include "joints/joint_kinds.h"
 #include "messages/packing.h"
+#include "world/couplings.h"
 #include "world/joints.h"
 #include "world/quarantine.h"
 
@@ -105,6 +106,7 @@ void gatherShared(WorldState& world) {
     StepData& data = world.data;
     world.shared->gather(
         {world.bodies, data.pairs, data.contacts, world.joints, {}, {}, {}, world.steps, world.executor});
+    placeCouplings(world);
     buildBatches(world.bodies.kind, data.contacts, data.batch_scratch, data.batches, world.joints);
     listContacts(world.bodies.kind, data.contacts, data.contacts_of);
     gatherSensed(world);
