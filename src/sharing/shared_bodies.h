@@ -55,8 +55,6 @@ class SharedBodies {
     bool settle(const DealtOut& world);
     /// Makes a divided world whole: all ranks have all bodies, with the contacts of the last step.
     void gather(const DealtOut& world);
-    /// To be called when the bodies are others, the same on all ranks.
-    void beginAnew() { whole_ = true; }
 
   private:
     void divide(const DealtOut& world);

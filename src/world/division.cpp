@@ -82,9 +82,9 @@ void gatherReports(WorldState& world) {
     measureOverlaps(world);
     // What failed while all ranks had it is told by all.
     const auto key = [](const FaultInfo& fault) { return std::tuple(fault.step, fault.body); };
+    const auto same = [&](const FaultInfo& one, const FaultInfo& other) { return key(one) == key(other); };
     std::ranges::stable_sort(world.faults, {}, key);
-    const auto rest = std::ranges::unique(world.faults, {}, key);
-    world.faults.erase(rest.begin(), rest.end());
+    world.faults.erase(std::unique(world.faults.begin(), world.faults.end(), same), world.faults.end());
 }
 
 }  // namespace
