@@ -1,7 +1,7 @@
 # Installation: the static library, its headers, the schema of scene files, and a package for find_package(cairn).
 include(CMakePackageConfigHelpers)
 
-install(TARGETS cairn EXPORT cairn-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS cairn cairn_mpi EXPORT cairn-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(FILES docs/scene.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/cairn)
 install(DIRECTORY include/cairn DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT cairn-targets NAMESPACE cairn:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/cairn)

@@ -46,10 +46,6 @@ std::filesystem::path usualCheckpointFile(const std::string& scene_name) {
     return name + ".checkpoint";
 }
 
-void Checkpointer::writeIfDue(const SceneRun& run) {
-    if (Clock::now() - last_ >= option_.every) write(run);
-}
-
 void Checkpointer::write(const SceneRun& run) {
     writeCheckpoint(run, option_.file);
     last_ = Clock::now();

@@ -31,8 +31,8 @@ class Checkpointer {
   public:
     explicit Checkpointer(CheckpointOption option) : option_(std::move(option)) {}
 
+    bool isDue() const { return Clock::now() - last_ >= option_.every; }
     /// @throws IoError; the older checkpoint is kept
-    void writeIfDue(const SceneRun& run);
     void write(const SceneRun& run);
     const std::filesystem::path& file() const { return option_.file; }
 

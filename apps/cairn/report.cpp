@@ -20,11 +20,11 @@ double quantile(const std::vector<double>& sorted, double part) {
     return sorted[std::max<std::size_t>(rank, 1) - 1];
 }
 
+/// @param plane a body whose shape is a half-space
 bool isBehind(const SceneBody& plane, const Vec3& p_W) {
-    const auto* half_space = std::get_if<HalfSpace>(&plane.shape);
-    if (half_space == nullptr) return false;
+    const auto& half_space = std::get<HalfSpace>(plane.shape);
     const Pose pose{plane.position, plane.orientation.normalized()};
-    return half_space->normal.normalized().dot(pose.toInner(p_W)) < half_space->offset;
+    return half_space.normal.normalized().dot(pose.toInner(p_W)) < half_space.offset;
 }
 
 std::string row(std::string_view name, std::string_view value) {
@@ -54,6 +54,10 @@ void Measurements::add(double ms, const Statistics& step) {
 std::size_t countLost(const SceneRun& run) {
     const World& world = run.world();
     const std::vector<SceneBody>& bodies = run.scene().bodies;
+    std::vector<const SceneBody*> planes;
+    for (const SceneBody& body : bodies) {
+        if (std::holds_alternative<HalfSpace>(body.shape)) planes.push_back(&body);
+    }
     std::size_t lost = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const BodyId id = run.ids()[i];
@@ -62,8 +66,7 @@ std::size_t countLost(const SceneRun& run) {
         const Vec3 p_W = world.centreOfMass(id);
         const bool faulty = std::any_of(world.faults().begin(), world.faults().end(),
                                         [&](const FaultInfo& fault) { return fault.body == id; });
-        const bool behind =
-            std::any_of(bodies.begin(), bodies.end(), [&](const SceneBody& body) { return isBehind(body, p_W); });
+        const bool behind = std::ranges::any_of(planes, [&](const SceneBody* plane) { return isBehind(*plane, p_W); });
         if (faulty || behind) ++lost;
     }
     return lost;
@@ -102,6 +105,28 @@ Report makeReport(const SceneRun& run, const Measurements& measurements) {
     return report;
 }
 
+namespace {
+
+std::string formatRanks(const RanksReport& ranks) {
+    const double count = ranks.count;
+    return row("ranks", fmt::format("{}; waiting {:.3f} s on average, the slowest {:.3f} s", ranks.count,
+                                    ranks.sum.waiting / count, ranks.least_waiting)) +
+           row("messages", fmt::format("{} in {} rounds, {:.3f} MB", ranks.sum.messages, ranks.sum.rounds,
+                                       1e-6 * static_cast<double>(ranks.sum.bytes)));
+}
+
+nlohmann::ordered_json toJson(const RanksReport& ranks) {
+    return {
+        {"count", ranks.count},
+        {"rounds", ranks.sum.rounds},
+        {"messages", ranks.sum.messages},
+        {"bytes", ranks.sum.bytes},
+        {"waiting_s",
+         {{"mean", ranks.sum.waiting / ranks.count}, {"least", ranks.least_waiting}, {"most", ranks.most_waiting}}}};
+}
+
+}  // namespace
+
 std::string formatTable(const Report& report) {
     const Statistics& total = report.total;
     std::string text = fmt::format("{}: {} bodies, {} {}\n", report.scene, report.bodies, report.threads,
@@ -124,6 +149,7 @@ std::string formatTable(const Report& report) {
                 fmt::format("{:.6g} J kinetic, {:.6g} J potential", report.kinetic_energy, report.potential_energy));
     text += row("bodies asleep", fmt::format("{}", report.asleep));
     text += row("bodies lost", fmt::format("{}", report.lost));
+    if (report.ranks) text += formatRanks(*report.ranks);
     text += row("state hash", fmt::format("{:016x}", report.state_hash));
     return text;
 }
@@ -131,7 +157,7 @@ std::string formatTable(const Report& report) {
 nlohmann::ordered_json toJson(const Report& report) {
     nlohmann::ordered_json stages = nlohmann::ordered_json::object();
     for (std::size_t i = 0; i < stage_count; ++i) stages[std::string(stage_names[i])] = report.total.stage_ms[i];
-    return {
+    nlohmann::ordered_json json = {
         {"scene", report.scene},
         {"bodies", report.bodies},
         {"threads", report.threads},
@@ -156,6 +182,8 @@ nlohmann::ordered_json toJson(const Report& report) {
         {"lost", report.lost},
         {"state_hash", fmt::format("{:016x}", report.state_hash)},
     };
+    if (report.ranks) json["ranks"] = toJson(*report.ranks);
+    return json;
 }
 
 }  // namespace cairn::cli

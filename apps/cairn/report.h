@@ -4,10 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 #include "cairn/scene.h"
 #include "measurements.h"
+#include "together.h"
 
 namespace cairn::cli {
 
@@ -26,6 +28,7 @@ struct Report {
     std::int64_t asleep = 0;                          ///< at the end
     std::size_t lost = 0;                             ///< see countLost()
     std::uint64_t state_hash = 0;                     ///< at the end
+    std::optional<RanksReport> ranks;                 ///< of a run that ranks shared
 };
 
 /// Dynamic bodies that were fixed by a fault, or whose centre is inside a fixed half-space at the end.

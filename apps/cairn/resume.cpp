@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "commands.h"
-#include "runner.h"
+#include "ranks_options.h"
 
 namespace cairn::cli {
 
@@ -16,9 +16,10 @@ struct ResumeOptions {
     std::optional<std::int64_t> threads;
     std::optional<double> duration;
     OutputOptions outputs;
+    RanksOptions ranks;
 };
 
-int resume(const ResumeOptions& options) {
+SceneRun runFrom(const ResumeOptions& options) {
     SceneRun run = readCheckpoint(options.file);
     if (options.threads) {
         // Results do not depend on the threads; every other setting would make another run of it.
@@ -32,7 +33,7 @@ int resume(const ResumeOptions& options) {
                                      options.file, run.scene().duration));
     }
     refuseSameFiles(options.outputs, options.file);
-    return runToTheEnd(std::move(run), options.outputs, options.file);
+    return run;
 }
 
 }  // namespace
@@ -45,7 +46,12 @@ void addResume(CLI::App& app, int& exit_code) {
     command->add_option("--threads", options->threads, "Threads of a step; default: as before");
     command->add_option("--duration", options->duration, "Simulated time of the whole run [s]; default: as before");
     addOutputOptions(*command, options->outputs);
-    command->callback([options, &exit_code] { exit_code = resume(*options); });
+    addRanksOptions(*command, options->ranks);
+    command->callback([options, &exit_code] {
+        exit_code = runOnRanks(options->ranks, options->outputs, [&]() -> PreparedRun {
+            return {runFrom(*options), options->file};
+        });
+    });
 }
 
 }  // namespace cairn::cli

@@ -5,7 +5,7 @@
 #include "cli/override_options.h"
 #include "cli/scene_argument.h"
 #include "commands.h"
-#include "runner.h"
+#include "ranks_options.h"
 
 namespace cairn::cli {
 
@@ -16,6 +16,7 @@ struct RunOptions {
     OverrideOptions overrides;
     std::optional<double> duration;
     OutputOptions outputs;
+    RanksOptions ranks;
 };
 
 Scene sceneFrom(const RunOptions& options) {
@@ -25,11 +26,13 @@ Scene sceneFrom(const RunOptions& options) {
 }
 
 int runScene(const RunOptions& options) {
-    Scene scene = sceneFrom(options);
-    const Settings settings = settingsFor(scene, overridesFrom(options.overrides, scene));
-    refuseSameFiles(options.outputs, isBuiltInScene(options.scene) ? "" : options.scene);
-    const std::filesystem::path checkpoint = usualCheckpointFile(scene.name);
-    return runToTheEnd(SceneRun(std::move(scene), settings), options.outputs, checkpoint);
+    return runOnRanks(options.ranks, options.outputs, [&]() -> PreparedRun {
+        Scene scene = sceneFrom(options);
+        const Settings settings = settingsFor(scene, overridesFrom(options.overrides, scene));
+        refuseSameFiles(options.outputs, isBuiltInScene(options.scene) ? "" : options.scene);
+        std::filesystem::path checkpoint = usualCheckpointFile(scene.name);
+        return {SceneRun(std::move(scene), settings), std::move(checkpoint)};
+    });
 }
 
 }  // namespace
@@ -41,6 +44,7 @@ void addRun(CLI::App& app, int& exit_code) {
     addOverrideOptions(*command, options->overrides);
     command->add_option("--duration", options->duration, "Simulated time [s]; default: the scene's");
     addOutputOptions(*command, options->outputs);
+    addRanksOptions(*command, options->ranks);
     command->callback([options, &exit_code] { exit_code = runScene(*options); });
 }
 

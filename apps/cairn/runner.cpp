@@ -31,24 +31,24 @@ std::string describeFault(const SceneRun& run, const FaultInfo& fault) {
 /// A run with its outputs.
 class Runner {
   public:
-    Runner(SceneRun run, const OutputOptions& options, const std::filesystem::path& usual_checkpoint)
-        : run_(std::move(run)) {
+    Runner(SceneRun run, const OutputOptions& options, const std::filesystem::path& usual_checkpoint, Ranks* ranks)
+        : run_(std::move(run)), together_(ranks) {
         if (options.check) run_.world().setChecks(Checks::on);
         run_.stepsPerSimulationStep();  // refuses a bad number before a file is touched
         if (auto option = parseCheckpoint(options.checkpoint, usual_checkpoint)) checkpoints_.emplace(*option);
+        hashed_ = options.hashes;
+        records_ = !options.record.empty();
+        const double steps = run_.world().settings().steps_per_second;
+        recorded_.frame_rate = options.frame_rate;
+        recorded_.hashes_per_frame = static_cast<std::size_t>(hashed_ ? std::lround(steps / options.frame_rate) : 0);
+        recorded_.contacts = options.record_contacts;
+        recorded_.joints = options.record_joints;
+        counts_whole_ = !options.stats.empty();
+        if (!together_.isFirst()) return;
         // A place that cannot be written is told now and not after the first hours.
         if (checkpoints_) checkpoints_->write(run_);
-        hashed_ = options.hashes;
-        if (!options.record.empty()) {
-            const double steps = run_.world().settings().steps_per_second;
-            recorded_.frame_rate = options.frame_rate;
-            recorded_.hashes_per_frame =
-                static_cast<std::size_t>(hashed_ ? std::lround(steps / options.frame_rate) : 0);
-            recorded_.contacts = options.record_contacts;
-            recorded_.joints = options.record_joints;
-            recording_.emplace(options.record, run_.scene(), run_.world().settings(), recorded_);
-        }
-        if (!options.stats.empty()) stats_.emplace(options.stats, run_.world().settings());
+        if (records_) recording_.emplace(options.record, run_.scene(), run_.world().settings(), recorded_);
+        if (counts_whole_) stats_.emplace(options.stats, run_.world().settings());
     }
 
     /// @return why the run ended early, if it did. What failed is an output or a body; wrong events throw InputError
@@ -58,25 +58,52 @@ class Runner {
         const auto all = static_cast<std::int64_t>(std::ceil(duration * simulation_steps_per_second - 1e-6));
         const std::int64_t done = run_.world().stepCount() / run_.stepsPerSimulationStep();
         Progress progress(duration, progress_wish);
-        try {
-            record();
-            for (std::int64_t left = std::max<std::int64_t>(all, 1) - done; left > 0; --left) {
-                if (interrupted()) return interruption();
-                step();
-                if (!run_.world().faults().empty()) return describeFault(run_, run_.world().faults().front());
-                if (checkpoints_) checkpoints_->writeIfDue(run_);
-                progress.update(run_.world().time());
+        record();
+        for (std::int64_t left = std::max<std::int64_t>(all, 1) - done; left > 0; --left) {
+            if (const auto end = together_.firstOf(failure_)) return end;
+            if (together_.anywhere(interrupted())) return interruption();
+            step();
+            if (!failure_ && !run_.world().faults().empty()) {
+                failure_ = describeFault(run_, run_.world().faults().front());
             }
-            if (recording_) recording_->close();
-        } catch (const IoError& error) {
-            return error.what();
+            if (checkpoints_ && !failure_ && together_.anywhere(together_.isFirst() && checkpoints_->isDue())) {
+                writeCheckpoint();
+            }
+            progress.update(run_.world().time());
         }
-        return std::nullopt;
+        tryTo([&] {
+            if (recording_) recording_->close();
+        });
+        return together_.firstOf(failure_);
     }
 
-    Report report() const { return makeReport(run_, measurements_); }
+    /// To be called by all ranks, on the first one for what it tells.
+    Report report() {
+        const std::optional<RanksReport> ranks = together_.report();
+        run_.world().gather();
+        if (!together_.isFirst()) return {};
+        Report report = makeReport(run_, measurements_);
+        report.ranks = ranks;
+        return report;
+    }
 
   private:
+    /// Writes an output of the first rank. What fails ends the run, on all ranks, when they agree on that next.
+    template <class Work>
+    void tryTo(const Work& work) {
+        if (failure_ || !together_.isFirst()) return;
+        try {
+            work();
+        } catch (const IoError& error) {
+            failure_ = error.what();
+        }
+    }
+
+    void writeCheckpoint() {
+        run_.world().gather();
+        tryTo([&] { checkpoints_->write(run_); });
+    }
+
     /// A simulation step of 1/30 s; frames are recorded within it, too.
     void step() {
         double ms = 0;
@@ -84,10 +111,14 @@ class Runner {
         for (int left = run_.stepsPerSimulationStep(); left > 0; --left) {
             ms += timeStep();
             sum.add(run_.world().statistics());
-            if (recording_ && isFrameDue(run_, recorded_.frame_rate)) record();
+            if (records_ && isFrameDue(run_, recorded_.frame_rate)) record();
         }
+        if (counts_whole_) run_.world().gather();
+        sum = together_.total(sum, run_.world());
         measurements_.add(ms, sum);
-        if (stats_) stats_->add(run_.world(), ms, sum);
+        tryTo([&] {
+            if (stats_) stats_->add(run_.world(), ms, sum);
+        });
     }
 
     /// @return wall time [ms]
@@ -95,33 +126,41 @@ class Runner {
         using Milliseconds = std::chrono::duration<double, std::milli>;
         const auto begin = std::chrono::steady_clock::now();
         run_.step();
-        if (hashed_) hashes_.push_back(run_.world().stateHash());
+        if (hashed_) hashes_.push_back(together_.hash(run_.world()));
         since_frame_.add(run_.world().statistics());
         return Milliseconds(std::chrono::steady_clock::now() - begin).count();
     }
 
     void record() {
-        if (!recording_) return;
-        Frame frame = captureFrame(run_, since_frame_, recorded_);
-        frame.step_hashes = std::exchange(hashes_, {});
-        since_frame_ = {};
-        recording_->append(frame);
+        if (!records_) return;
+        run_.world().gather();
+        const Statistics since = together_.total(std::exchange(since_frame_, {}), run_.world());
+        tryTo([&] {
+            Frame frame = captureFrame(run_, since, recorded_);
+            frame.step_hashes = std::exchange(hashes_, {});
+            recording_->append(frame);
+        });
     }
 
     std::string interruption() {
         std::string text = fmt::format("interrupted after {:.6g} of {} s", run_.world().time(), run_.scene().duration);
         if (!checkpoints_) return text;
-        checkpoints_->write(run_);
+        writeCheckpoint();
+        if (const auto end = together_.firstOf(failure_)) return *end;
         return text + fmt::format("; 'cairn resume {}' goes on", checkpoints_->file().string());
     }
 
     SceneRun run_;
+    Together together_;
+    std::optional<std::string> failure_;  ///< that ends the run
     std::optional<Checkpointer> checkpoints_;
     std::optional<RecordingWriter> recording_;
     std::optional<StatsCsv> stats_;
     RecordingOptions recorded_;
     Measurements measurements_;
     bool hashed_ = false;
+    bool records_ = false;               ///< also on the ranks that do not write
+    bool counts_whole_ = false;          ///< statistics are written
     std::vector<std::uint64_t> hashes_;  ///< of the time steps since the last frame
     Statistics since_frame_;             ///< of the same
 };
@@ -181,13 +220,17 @@ double requireDuration(double duration) {
     throw InputError(fmt::format("--duration is {}; it must be above 0 and at most {} s", duration, longest_duration));
 }
 
-int runToTheEnd(SceneRun run, const OutputOptions& options, const std::filesystem::path& usual_checkpoint) {
+int runToTheEnd(SceneRun run, const OutputOptions& options, const std::filesystem::path& usual_checkpoint,
+                Ranks* ranks) {
     const Settings settings = run.world().settings();
-    Runner runner(std::move(run), options, usual_checkpoint);
-    warnOfLongSteps(settings);
+    const bool tells = ranks == nullptr || ranks->rank() == 0;
+    Runner runner(std::move(run), options, usual_checkpoint, ranks);
+    if (tells) warnOfLongSteps(settings);
     noteInterrupts();
-    const auto failure = runner.simulate(options.quiet || options.json ? Progress::Wish::hide : Progress::Wish::show);
+    const bool shows = tells && !options.quiet && !options.json;
+    const auto failure = runner.simulate(shows ? Progress::Wish::show : Progress::Wish::hide);
     const Report report = runner.report();
+    if (!tells) return failure ? run_failed : fine;
     if (options.json) {
         printOut(toJson(report).dump(2) + '\n');
     } else if (!options.quiet) {

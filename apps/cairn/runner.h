@@ -12,6 +12,7 @@
 #include "measurements.h"
 #include "report.h"
 #include "stats_csv.h"
+#include "together.h"
 
 namespace cairn::cli {
 
@@ -41,7 +42,9 @@ double requireDuration(double duration);
 
 /// Simulates to the end of the scene, with outputs and a report, and notes signals.
 /// @param usual_checkpoint file of the checkpoints if the option names none
+/// @param ranks that the run's world is shared with, all of which call it: the first one has the outputs; null = none
 /// @return the exit code @throws InputError, IoError before it begins
-int runToTheEnd(SceneRun run, const OutputOptions& options, const std::filesystem::path& usual_checkpoint);
+int runToTheEnd(SceneRun run, const OutputOptions& options, const std::filesystem::path& usual_checkpoint,
+                Ranks* ranks = nullptr);
 
 }  // namespace cairn::cli

@@ -206,7 +206,8 @@ class SceneRun {
     /// Ids of the scene's bodies, by index; stale once removed.
     const std::vector<BodyId>& ids() const { return ids_; }
 
-    /// Applies the events that are due, then steps the world once.
+    /// Applies the events that are due, then steps the world once. A shared world is gathered before an event,
+    /// and in every step of a scene with drives.
     void step();
     /// One simulation step of 1/30 s. @return the sum of the statistics of its time steps
     Statistics simulationStep();

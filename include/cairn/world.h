@@ -16,6 +16,7 @@
 #include "cairn/material.h"
 #include "cairn/motion.h"
 #include "cairn/query.h"
+#include "cairn/ranks.h"
 #include "cairn/settings.h"
 #include "cairn/shape.h"
 #include "cairn/statistics.h"
@@ -306,6 +307,21 @@ class World {
     /// From now on every step checks: finite state, unit quaternions, inertias, contacts, batches, energy. Costs about
     /// a tenth of a step. After an InvariantError the world must not be used any more.
     void setChecks(Checks checks);
+
+    // --- ranks: one world on several of them, see docs/ranks.md ---
+    /// Shares the world with other ranks, each of which has made the same one by the same calls. From the next step on
+    /// every rank has a part of the bodies that move, with the bits that one rank would have; between steps it knows
+    /// these and the fixed bodies only, and calls that change bodies or need all of them throw an InputError until
+    /// gather() is called. Sums, such as stateHash() or kineticEnergy(), and contacts() are then of what this rank has:
+    /// the state hashes of the ranks add up to that of the whole world.
+    /// @param ranks must outlive the world @throws InputError for diagnostics and events, which cannot be shared yet,
+    /// and for a grid that is not one for so many ranks
+    void share(Ranks& ranks, const Partition& partition = {});
+    /// Gives all ranks all bodies, with contacts, statistics and faults of the whole world, until the next step; to be
+    /// called by all of them, who may then do what they want as on one rank, if all do the same. Costs as much as
+    /// sending the world to every rank. Does nothing in a world that is not divided.
+    void gather();
+    bool isDivided() const noexcept;  ///< whether bodies are missing that other ranks have
 
     // --- snapshots ---
     /// Everything that the world is, so that it goes on bit by bit as it would have. @source docs/snapshots.md

@@ -43,6 +43,9 @@ WITHOUT: dict[str, str] = {
     "World.contactsTo": "World.contacts()",
     "World.bodyViews": "World.bodies",
     "World.contains": "id in world",
+    **dict.fromkeys(("Ranks", "Traffic", "RankLostError", "MessageDelay", "Partition"), "ranks are for programs in C++"),
+    **dict.fromkeys(("runRanks", "mpiRanks", "isStartedByMpi", "partitionNamed", "sumOverRanks"), "likewise"),
+    **dict.fromkeys(("World.share", "World.gather", "World.isDivided"), "likewise"),
 }
 
 # What Python has besides: whole runs, arrays of all frames, and what C++ says in another way.

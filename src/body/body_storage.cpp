@@ -11,6 +11,12 @@ namespace cairn {
 
 BodyIndex BodyStorage::indexOf(BodyId id) const {
     if (contains(id)) return id.index;
+    if (lends_slots_ && id.index < kind.size() && generation[id.index] == id.generation) {
+        throw StaleIdError(
+            fmt::format("body {}:{} is on another rank now: ask World::contains() first, or call World::gather() on "
+                        "all ranks",
+                        id.index, id.generation));
+    }
     throw StaleIdError(
         fmt::format("body id {}:{} is not in the world: it was removed or belongs to another world; "
                     "ask World::contains() first",

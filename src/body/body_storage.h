@@ -87,6 +87,8 @@ class BodyStorage : public BodyArrays {
     /// Takes the lowest hole or appends a slot, every entry reset, with the next number. The caller fills it.
     BodyIndex allocate(BodyKind new_kind);
     void release(BodyIndex i);
+    /// Whether a hole may be a body that another rank has; only messages depend on it.
+    void setLending(bool lends) { lends_slots_ = lends; }
     /// Finds the holes and the count anew. @pre every array has one entry per slot; call it after replacing them
     /// @param next_number above the number of every body
     void adoptSlots(std::uint64_t next_number);
@@ -112,6 +114,7 @@ class BodyStorage : public BodyArrays {
     std::size_t count_ = 0;
     std::uint64_t next_number_ = 0;
     std::uint64_t layout_version_ = 0;
+    bool lends_slots_ = false;
 };
 
 }  // namespace cairn

@@ -68,6 +68,13 @@ void NearPairs::drop(std::span<const std::uint8_t> others, std::vector<BodyPair>
     });
 }
 
+void NearPairs::replace(std::span<const std::uint8_t> left, std::vector<ContactPair>& pairs) {
+    for (std::size_t i = 0; i < std::min(left.size(), kind_.size()); ++i) {
+        if (left[i] != 0) kind_[i] = BodyKind::hole;
+    }
+    pairs_.swap(pairs);
+}
+
 /// Drops the pairs that were searched again and not found; of those that were found only the new ones remain in
 /// new_pairs_.
 void NearPairs::dropLeft() {

@@ -48,6 +48,9 @@ class NearPairs {
     /// To be called when some bodies are others: drops their pairs.
     /// @param others [slots] 1 = its body is another, or gone @param touching gets those that touch, in their order
     void drop(std::span<const std::uint8_t> others, std::vector<BodyPair>& touching);
+    /// To be called when some bodies left and others came, which the next update searches.
+    /// @param left [slots] 1 = the slot's body left @param pairs sorted, none of bodies that left; out: kept memory
+    void replace(std::span<const std::uint8_t> left, std::vector<ContactPair>& pairs);
     /// Sorted by (a, b), each once; among them all pairs (a < b, not both fixed) whose bounds overlap. New ones
     /// are untested.
     std::span<ContactPair> pairs() { return pairs_; }

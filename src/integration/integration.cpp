@@ -149,6 +149,7 @@ void advanceVelocities(BodyStorage& bodies, const Vec3& acceleration, const Slee
                 }
                 bodies.w[i] += bodies.inertiaInv_W[i] * torque * time_step;
             }
+            if (bodies.kind[i] == BodyKind::hole) continue;
             bodies.force[i].setZero();
             bodies.torque[i].setZero();
         }
@@ -170,7 +171,9 @@ double speedChange(const BodyStorage& bodies, const VelocitiesBefore& before, st
 void notePositions(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before) {
     before.position.resize(bodies.slots());
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
-        for (std::size_t i = begin; i < end; ++i) before.position[i] = bodies.position[i];
+        for (std::size_t i = begin; i < end; ++i) {
+            if (bodies.kind[i] != BodyKind::hole) before.position[i] = bodies.position[i];
+        }
     });
 }
 
@@ -180,6 +183,7 @@ void noteVelocities(const BodyStorage& bodies, const Executor& executor, Velocit
     before.forced.resize(bodies.slots());
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
+            if (bodies.kind[i] == BodyKind::hole) continue;
             before.v[i] = bodies.v[i];
             before.w[i] = bodies.w[i];
         }
@@ -188,7 +192,9 @@ void noteVelocities(const BodyStorage& bodies, const Executor& executor, Velocit
 
 void noteForced(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before) {
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
-        for (std::size_t i = begin; i < end; ++i) before.forced[i] = speedChange(bodies, before, i);
+        for (std::size_t i = begin; i < end; ++i) {
+            if (bodies.kind[i] != BodyKind::hole) before.forced[i] = speedChange(bodies, before, i);
+        }
     });
 }
 

@@ -102,6 +102,18 @@ bool mayTouch(const BodyStorage& bodies, std::span<const BodyPair> excluded, con
 
 }  // namespace
 
+Bounds searchedBounds(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, BodyAhead& ahead) {
+    Bounds grown = boundsOf(bodies.shape[i], bodies.shapePose(i));
+    const double r_min = bodies.r_min[i];
+    const double margin = std::isfinite(r_min) ? range.marginOf(r_min, r_min) : 0;
+    grown.lower.array() -= margin;
+    grown.upper.array() += margin;
+    if (range.foresight.time == 0) return grown;
+    ahead.now = grown;
+    lookAhead(bodies, range, i, ahead);
+    return ahead.way;
+}
+
 void PairTable::beginStep(const BodyStorage& bodies, std::span<const std::uint32_t> generation,
                           const Executor& executor) {
     removed_.clear();
@@ -131,6 +143,7 @@ void PairTable::detect(const PairsInput& input, std::vector<Contact>& contacts) 
     joiner_.join(bodies, input.materials, input.executor, parts_, contacts);
     input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
+            if (bodies.kind[i] == BodyKind::hole) continue;
             bodies.detected_position[i] = bodies.position[i];
             bodies.detected_orientation[i] = bodies.orientation[i];
         }
@@ -138,13 +151,13 @@ void PairTable::detect(const PairsInput& input, std::vector<Contact>& contacts) 
     known_ = true;
 }
 
-void PairTable::followStruck(const PairsInput& input, std::vector<Contact>& contacts,
+void PairTable::followStruck(const PairsInput& input, double fastest, std::vector<Contact>& contacts,
                              std::vector<std::uint32_t>& added) {
     added.clear();
     DetectionRange range = range_;
     // The velocities have it by now.
     range.foresight.fall.setZero();
-    if (!findStruck(input, range)) return;
+    if (!findStruck(input, range, fastest)) return;
     near_pairs_.update({input.bodies.kind, bounds_, input.bodies.v, unmoved_}, input.broad_phase, input.executor);
     for (FoundContacts& part : parts_) part.clear();
     forParts(input.executor, [&](FoundContacts& part) { followPairs(input, range, contacts, part); });
@@ -166,6 +179,35 @@ void PairTable::adopt(std::span<const Contact> contacts) {
     bounds_.clear();
 }
 
+void PairTable::change(const PairChange& change, std::vector<Contact>& contacts) {
+    changed_pairs_.clear();
+    changed_contacts_.clear();
+    auto next = change.contacts.begin();
+    const auto addCameBefore = [&](const BodyPair& end) {
+        while (next != change.contacts.end() && BodyPair{next->a, next->b} < end) {
+            ContactPair pair{{next->a, next->b}, static_cast<std::uint32_t>(changed_contacts_.size()), 0};
+            for (; next != change.contacts.end() && next->a == pair.a && next->b == pair.b; ++next, ++pair.count) {
+                changed_contacts_.push_back(*next);
+            }
+            changed_pairs_.push_back(pair);
+        }
+    };
+    for (ContactPair pair : pairs()) {
+        if ((change.left[pair.a] | change.left[pair.b]) != 0) continue;
+        addCameBefore(pair);
+        if (pair.touches()) {
+            const auto first = contacts.begin() + pair.first;
+            pair.first = static_cast<std::uint32_t>(changed_contacts_.size());
+            changed_contacts_.insert(changed_contacts_.end(), first, first + pair.count);
+        }
+        changed_pairs_.push_back(pair);
+    }
+    addCameBefore({UINT32_MAX, UINT32_MAX});
+    near_pairs_.replace(change.left, changed_pairs_);
+    contacts.swap(changed_contacts_);
+    came_.insert(came_.end(), change.came.begin(), change.came.end());
+}
+
 /// Compares every body with where it was detected last.
 void PairTable::findUnmoved(const PairsInput& input) {
     const BodyStorage& bodies = input.bodies;
@@ -175,11 +217,15 @@ void PairTable::findUnmoved(const PairsInput& input) {
     unmoved_.resize(bodies.slots());
     input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
+            if (bodies.kind[i] == BodyKind::hole) continue;
             const bool same = bodies.detected_position[i] == bodies.position[i] &&
                               bodies.detected_orientation[i].coeffs() == bodies.orientation[i].coeffs();
             unmoved_[i] = known && same ? 1 : 0;
         }
     });
+    // What was found of them elsewhere is not known here.
+    for (const BodyIndex i : came_) unmoved_[i] = 0;
+    came_.clear();
 }
 
 void PairTable::findBounds(const PairsInput& input) {
@@ -191,16 +237,7 @@ void PairTable::findBounds(const PairsInput& input) {
             // What is awake may have been stopped or pushed since.
             const bool same = range_.foresight.time == 0 || (bodies.asleep[i] != 0 && ahead_[i].reach == 0);
             if (bodies.kind[i] == BodyKind::hole || (unmoved_[i] != 0 && same)) continue;
-            Bounds grown = boundsOf(bodies.shape[i], bodies.shapePose(i));
-            const double r_min = bodies.r_min[i];
-            const double margin = std::isfinite(r_min) ? range_.marginOf(r_min, r_min) : 0;
-            grown.lower.array() -= margin;
-            grown.upper.array() += margin;
-            bounds_[i] = grown;
-            if (range_.foresight.time == 0) continue;
-            ahead_[i].now = grown;
-            lookAhead(bodies, range_, i, ahead_[i]);
-            bounds_[i] = ahead_[i].way;
+            bounds_[i] = searchedBounds(bodies, range_, i, ahead_[i]);
         }
     });
 }
@@ -220,7 +257,7 @@ void PairTable::forParts(const Executor& executor, const Work& work) {
 }
 
 /// Looks ahead once more for the bodies that were struck, from where they are. @return whether there are any
-bool PairTable::findStruck(const PairsInput& input, const DetectionRange& range) {
+bool PairTable::findStruck(const PairsInput& input, const DetectionRange& range, double fastest) {
     const BodyStorage& bodies = input.bodies;
     struck_.resize(bodies.slots());
     input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
@@ -230,6 +267,9 @@ bool PairTable::findStruck(const PairsInput& input, const DetectionRange& range)
             unmoved_[i] = struck ? 0 : 1;
             if (!struck) continue;
             lookAhead(bodies, range, i, ahead_[i]);
+            const Bounds reached = ahead_[i].now.grown(fastest * range.foresight.time);
+            ahead_[i].way.lower = ahead_[i].way.lower.cwiseMax(reached.lower);
+            ahead_[i].way.upper = ahead_[i].way.upper.cwiseMin(reached.upper);
             // What was found for the way foreseen stays.
             bounds_[i].lower = bounds_[i].lower.cwiseMin(ahead_[i].way.lower);
             bounds_[i].upper = bounds_[i].upper.cwiseMax(ahead_[i].way.upper);

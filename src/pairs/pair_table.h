@@ -25,6 +25,17 @@ struct PairsInput {
     const Executor& executor;
 };
 
+/// Bodies that come and go between two detections.
+struct PairChange {
+    std::span<const std::uint8_t> left;  ///< [slots] 1 = its body left
+    std::span<const BodyIndex> came;
+    std::span<const Contact> contacts;  ///< of those that came, sorted by (a, b)
+};
+
+/// The bounds that a detection searches a body with: grown by the margin, and by the way ahead [m, W].
+/// @param ahead out: how the body goes on, where the range looks ahead
+Bounds searchedBounds(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, BodyAhead& ahead);
+
 /// The pairs of bodies near each other, in the order of their slots. A pair lives as long as the bounds that its bodies
 /// were searched with overlap; its contacts are found anew where a body is not where it was detected last
 /// (BodyArrays::detected_position). What is found depends on poses and shapes alone. The impulses that new contacts
@@ -41,14 +52,20 @@ class PairTable {
 
     /// Finds the contacts that nobody foresaw, since a body of theirs was struck by the resolution, and adds them
     /// behind those of their pairs. @pre detect() was the last call, and it looked ahead
-    /// @param contacts with impulses, which they keep @param added out: indices of the new ones, ascending
-    void followStruck(const PairsInput& input, std::vector<Contact>& contacts, std::vector<std::uint32_t>& added);
+    /// @param fastest bodies are followed as far as this speed leads them [m/s] @param contacts with impulses, which they
+    ///        keep @param added out: indices of the new ones, ascending
+    void followStruck(const PairsInput& input, double fastest, std::vector<Contact>& contacts,
+                      std::vector<std::uint32_t>& added);
 
     /// To be called when contacts would be others though no body moved: all are found anew.
     void forgetContacts() { known_ = false; }
     /// To be called when bodies and contacts are others: all pairs are those of the contacts.
     /// @param contacts sorted by (a, b)
     void adopt(std::span<const Contact> contacts);
+
+    /// To be called when some bodies left their slots, with their contacts, and others came with theirs: all else
+    /// stays.
+    void change(const PairChange& change, std::vector<Contact>& contacts);
 
     /// All of them, sorted by (a, b), whether they touch or not.
     std::span<const ContactPair> pairs() const { return near_pairs_.pairs(); }
@@ -64,7 +81,7 @@ class PairTable {
     template <class Work>
     void forParts(const Executor& executor, const Work& work);
     void detectPairs(const PairsInput& input, std::span<const Contact> last, FoundContacts& part);
-    bool findStruck(const PairsInput& input, const DetectionRange& range);
+    bool findStruck(const PairsInput& input, const DetectionRange& range, double fastest);
     void followPairs(const PairsInput& input, const DetectionRange& range, std::span<const Contact> contacts,
                      FoundContacts& part);
     void addGrown(FoundContacts& part);
@@ -81,6 +98,9 @@ class PairTable {
     std::vector<Bounds> bounds_;         ///< [slots]
     std::vector<FoundContacts> parts_;   ///< [threads]
     ContactJoiner joiner_;
+    std::vector<BodyIndex> came_;             ///< since the last detection
+    std::vector<ContactPair> changed_pairs_;  ///< kept memory
+    std::vector<Contact> changed_contacts_;   ///< kept memory
 };
 
 }  // namespace cairn

@@ -254,8 +254,10 @@ void SceneRun::step() {
     const double now = world_.time() + 1e-9 * world_.settings().timeStep();
     while (next_event_ < scene_.events.size() && scene_.events[next_event_].time <= now) {
         const SceneEvent& event = scene_.events[next_event_++];
+        world_.gather();
         inContext(fmt::format("event at {} s", event.time), [&] { apply(event.action); });
     }
+    if (!curves_.empty()) world_.gather();
     for (std::size_t i = 0; i < curves_.size(); ++i) {
         inContext(fmt::format("drive {}", i), [&] { applyDrive(scene_.drives[i], *curves_[i], scene_, ids_, world_); });
     }

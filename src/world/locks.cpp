@@ -1,4 +1,5 @@
 #include "world/locks.h"
+#include "world/division.h"
 
 #include <fmt/core.h>
 
@@ -74,6 +75,7 @@ std::uint8_t locksOf(WorldState& world, BodyIndex i) {
 }
 
 void World::setLocked(BodyId id, std::span<const JointAlong> axes) {
+    requireWhole(*state_, "World::setLocked");
     const BodyIndex i = state_->bodies.indexOf(id);
     const std::uint8_t mask = lockMaskOf(axes);
     if (mask != 0 && state_->bodies.kind[i] == BodyKind::fixed) {

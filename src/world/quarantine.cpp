@@ -51,6 +51,19 @@ void quarantine(WorldState& world) {
     }
 }
 
+void measureOverlaps(WorldState& world) {
+    Statistics& s = world.statistics;
+    std::int64_t overlapping = 0;
+    double overlap = 0;
+    for (const Contact& contact : world.data.contacts) {
+        if (contact.distance >= 0) continue;
+        ++overlapping;
+        overlap -= contact.distance;
+        s.largest_overlap = std::max(s.largest_overlap, -contact.distance);
+    }
+    s.mean_overlap = overlapping > 0 ? overlap / static_cast<double>(overlapping) : 0;
+}
+
 void summarize(WorldState& world) {
     Statistics& s = world.statistics;
     const StepData& data = world.data;
@@ -68,15 +81,7 @@ void summarize(WorldState& world) {
     for (std::size_t i = 0; i < data.batches.size(); ++i) {
         s.largest_batch = std::max(s.largest_batch, static_cast<std::int64_t>(data.batches[i].contacts.size()));
     }
-    std::int64_t overlapping = 0;
-    double overlap = 0;
-    for (const Contact& contact : data.contacts) {
-        if (contact.distance >= 0) continue;
-        ++overlapping;
-        overlap -= contact.distance;
-        s.largest_overlap = std::max(s.largest_overlap, -contact.distance);
-    }
-    s.mean_overlap = overlapping > 0 ? overlap / static_cast<double>(overlapping) : 0;
+    measureOverlaps(world);
     for (BodyIndex i = 0; i < world.bodies.slots(); ++i) {
         s.asleep += world.bodies.asleep[i];
         if (world.bodies.woken[i] == WakeReason::none) continue;

@@ -21,6 +21,8 @@ inline bool isUsableMass(double mass) {
 /// Fixes every body whose state left the finite numbers or the limits, where it is, and notes the fault.
 void quarantine(WorldState& world);
 
+/// Fills in the overlaps of the contacts.
+void measureOverlaps(WorldState& world);
 /// Fills the statistics of the step from the stages' arrays.
 void summarize(WorldState& world);
 

@@ -130,7 +130,7 @@ void resolveContacts(WorldState& world, BodyState& bodies, const PairsInput& pai
     if (!(pairs.range.foresight.time > 0)) return;
     bool followed = false;
     for (int n = 0; n < most_follows; ++n) {
-        data.pairs.followStruck(pairs, data.contacts, data.added);
+        data.pairs.followStruck(pairs, data.fastest, data.contacts, data.added);
         if (data.added.empty()) break;
         resolveFollowed(world, bodies);
         followed = true;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "activity/sleeping.h"
 #include "integration/damping.h"
@@ -7,6 +8,7 @@
 #include "pairs/warm_start.h"
 #include "world/checks.h"
 #include "world/diagnostics.h"
+#include "world/division.h"
 #include "world/events.h"
 #include "world/joints.h"
 #include "world/motions.h"
@@ -57,6 +59,22 @@ DetectionRange rangeOf(const WorldState& world) {
 
 PairsInput pairsInput(WorldState& world, const DetectionRange& range) {
     return {world.bodies, world.materials, world.broad_phase, world.data.excluded, range, world.executor};
+}
+
+/// The highest speed that an impact of two bodies gives: that of the fastest point there is, to a light body that
+/// bounces, twice [m/s].
+double fastestAfterImpact(const WorldState& world) {
+    const BodyStorage& b = world.bodies;
+    std::vector<double> fastest(static_cast<std::size_t>(world.executor.threads()), 0.0);
+    world.executor.forBlocks(b.slots(), [&](std::size_t begin, std::size_t end, int thread) {
+        double& most = fastest[static_cast<std::size_t>(thread)];
+        for (std::size_t i = begin; i < end; ++i) {
+            if (b.kind[i] == BodyKind::hole || b.asleep[i] != 0) continue;
+            const double turning = b.w[i].isZero(0) || !std::isfinite(b.r_max[i]) ? 0 : b.w[i].norm() * b.r_max[i];
+            most = std::max(most, b.v[i].norm() + turning);
+        }
+    });
+    return 2 * *std::ranges::max_element(fastest);
 }
 
 void detect(WorldState& world) {
@@ -227,6 +245,9 @@ void stepWorld(WorldState& world) {
     });
     measureIfAsked(world, Measured::positions);
     timed(world, Stage::detection, [&] {
+        const DetectionRange range = rangeOf(world);
+        if (range.foresight.time > 0) world.data.fastest = fastestAfterImpact(world);
+        settleShared(world, range);
         world.data.pairs.beginStep(world.bodies, world.data.generation, world.executor);
         beginContacts(world.data.contacts, warmStart(world), world.executor);
         detect(world);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/division.h"
 #include "world/motions.h"
 #include "world/world_state.h"
 
@@ -46,6 +47,7 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 MaterialId World::addMaterial(const Material& material) {
+    requireWhole(*state_, "World::addMaterial");
     state_->lasting.reset();
     return state_->materials.add(material);
 }
@@ -55,18 +57,21 @@ std::span<const Material> World::materials() const {
 }
 
 void World::setDefaultPairProperties(const PairProperties& properties) {
+    requireWhole(*state_, "World::setDefaultPairProperties");
     state_->lasting.reset();
     state_->materials.setDefault(properties);
     state_->data.pairs.forgetContacts();
 }
 
 void World::setPairProperties(MaterialId a, MaterialId b, const PairProperties& properties) {
+    requireWhole(*state_, "World::setPairProperties");
     state_->lasting.reset();
     state_->materials.setPair(a, b, properties);
     state_->data.pairs.forgetContacts();
 }
 
 void World::setPairLaw(MaterialId a, MaterialId b, const PairLaw& law) {
+    requireWhole(*state_, "World::setPairLaw");
     state_->lasting.reset();
     state_->materials.setLaw(a, b, law);
     state_->data.pairs.forgetContacts();
@@ -89,6 +94,7 @@ PairProperties World::pairProperties(MaterialId a, MaterialId b) const {
 }
 
 void World::setGlobalAcceleration(const Vec3& acceleration) {
+    requireWhole(*state_, "World::setGlobalAcceleration");
     validate(state_->settings, lastingGravity(state_->gravity, state_->gravity_law) + acceleration);
     if (acceleration == state_->global_acceleration) return;
     state_->global_acceleration = acceleration;
@@ -120,6 +126,7 @@ const Settings& World::settings() const {
 }
 
 void World::setSettings(const Settings& settings) {
+    requireWhole(*state_, "World::setSettings");
     validate(settings, lastingGravity(state_->gravity, state_->gravity_law) + state_->global_acceleration);
     state_->applySettings(settings);
 }

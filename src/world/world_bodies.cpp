@@ -7,6 +7,7 @@
 #include "cairn/world.h"
 #include "geometry/body_mass.h"
 #include "world/couplings.h"
+#include "world/division.h"
 #include "world/limits.h"
 #include "world/locks.h"
 #include "world/motions.h"
@@ -133,6 +134,7 @@ Shape normalised(const Shape& shape) {
 }  // namespace
 
 BodyId World::addBody(const BodyDescription& d) {
+    requireWhole(*state_, "World::addBody");
     WorldState& w = *state_;
     validateDescription(d, w.materials);
     const Quat orientation = requireRotation(d.pose.orientation);
@@ -178,6 +180,7 @@ BodyId World::addBody(const BodyDescription& d) {
 }
 
 void World::removeBody(BodyId id) {
+    requireWhole(*state_, "World::removeBody");
     WorldState& w = *state_;
     const BodyIndex i = w.bodies.indexOf(id);
     w.lasting.reset();

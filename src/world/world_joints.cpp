@@ -9,6 +9,7 @@
 #include "cairn/world.h"
 #include "joints/joint_kinds.h"
 #include "world/couplings.h"
+#include "world/division.h"
 #include "world/joint_axes.h"
 #include "world/motions.h"
 #include "world/quarantine.h"
@@ -169,6 +170,7 @@ Joint jointBetween(const JointDescription& d, WorldState& w) {
 }  // namespace
 
 JointId World::addJoint(const JointDescription& d) {
+    requireWhole(*state_, "World::addJoint");
     WorldState& w = *state_;
     if (static_cast<std::size_t>(d.kind) >= jointKinds().size()) {
         throw InputError("the kind of a joint is none of JointKind");
@@ -187,6 +189,7 @@ JointId World::addJoint(const JointDescription& d) {
 }
 
 void World::removeJoint(JointId id) {
+    requireWhole(*state_, "World::removeJoint");
     Joint& joint = jointOf(state_->joints, id);
     wakeEnds(state_->bodies, joint);
     joint.present = false;
@@ -272,6 +275,7 @@ FreeAxis& ownAxisOf(Joint& joint, std::string_view what) {
 }  // namespace
 
 void World::setJointMotor(JointId id, const JointMotor& motor) {
+    requireWhole(*state_, "World::setJointMotor");
     Joint& joint = jointOf(state_->joints, id);
     FreeAxis& axis = ownAxisOf(joint, "motor");
     requireMotor(motor);
@@ -282,6 +286,7 @@ void World::setJointMotor(JointId id, const JointMotor& motor) {
 }
 
 void World::setJointLimits(JointId id, std::optional<double> lower, std::optional<double> upper) {
+    requireWhole(*state_, "World::setJointLimits");
     Joint& joint = jointOf(state_->joints, id);
     FreeAxis& axis = ownAxisOf(joint, "limits");
     requireLimits(lower, upper, axis.along, entryOf(joint.kind));
@@ -291,6 +296,7 @@ void World::setJointLimits(JointId id, std::optional<double> lower, std::optiona
 }
 
 void World::setJointServo(JointId id, const JointServo& servo) {
+    requireWhole(*state_, "World::setJointServo");
     Joint& joint = jointOf(state_->joints, id);
     FreeAxis& axis = ownAxisOf(joint, "servo");
     if (axis.hasMotor()) throw InputError("the joint has a motor, so it takes no servo");
@@ -299,6 +305,7 @@ void World::setJointServo(JointId id, const JointServo& servo) {
 }
 
 void World::setJointAxis(JointId id, std::size_t index, const JointAxis& axis) {
+    requireWhole(*state_, "World::setJointAxis");
     Joint& joint = jointOf(state_->joints, id);
     const JointKindEntry& kind = entryOf(joint.kind);
     if (index >= joint.free.size()) {

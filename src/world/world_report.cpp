@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "cairn/world.h"
+#include "world/division.h"
 #include "world/totals.h"
 #include "world/world_state.h"
 
@@ -118,6 +119,7 @@ const std::vector<FaultInfo>& World::faults() const {
 }
 
 void World::setEventLevel(EventLevel level) {
+    requireWhole(*state_, "World::setEventLevel");
     state_->events.level = level;
 }
 
@@ -166,10 +168,12 @@ Vec3 World::angularMomentum() const {
 
 std::uint64_t World::stateHash() const {
     const BodyStorage& b = state_->bodies;
+    const bool divided = isDivided();
     // A sum, so that neither the order of the slots nor who holds a body matters.
     std::uint64_t sum = 0;
     for (BodyIndex i = 0; i < b.slots(); ++i) {
-        if (b.kind[i] != BodyKind::hole) sum += hashOf(b, i);
+        if (b.kind[i] == BodyKind::hole || (divided && !state_->shared->isCounted(b, i))) continue;
+        sum += hashOf(b, i);
     }
     return sum;
 }

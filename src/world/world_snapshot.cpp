@@ -1,5 +1,6 @@
 /// The part of World that saves and restores.
 #include "cairn/world.h"
+#include "world/division.h"
 #include "world/rollback.h"
 #include "world/snapshot.h"
 #include "world/world_state.h"
@@ -15,6 +16,7 @@ std::vector<std::byte> World::save() const {
 }
 
 void World::saveTo(std::vector<std::byte>& buffer) const {
+    requireWhole(*state_, "World::saveTo");
     ByteWriter out(buffer, FrameKind::world);
     saveWorld(*state_, out);
     out.finish();
@@ -28,11 +30,13 @@ World World::restore(std::span<const std::byte> snapshot) {
 }
 
 void World::load(std::span<const std::byte> snapshot) {
+    requireWhole(*state_, "World::load");
     World loaded = restore(snapshot);
     // What the user watches the world with is no part of its state.
     loaded.setChecks(state_->checks);
     loaded.setTracing(state_->trace.tracing);
     loaded.state_->bodies.succeed(state_->bodies);
+    loaded.state_->shared = std::move(state_->shared);
     *this = std::move(loaded);
 }
 
@@ -42,11 +46,13 @@ RollbackState::RollbackState(RollbackState&&) noexcept = default;
 RollbackState& RollbackState::operator=(RollbackState&&) noexcept = default;
 
 void World::keep(RollbackState& state) const {
+    requireWhole(*state_, "World::keep");
     if (state.state_ == nullptr) state.state_ = std::make_unique<RollbackData>();
     keepRollback(*state_, *state.state_);
 }
 
 void World::load(const RollbackState& state) {
+    requireWhole(*state_, "World::load");
     if (state.state_ == nullptr) throw InputError("the state is empty; fill it with World::keep() first");
     loadRollback(*state.state_, *state_);
 }

@@ -28,6 +28,7 @@
 #include "parallel/help_choice.h"
 #include "queries/spatial_index.h"
 #include "resolution/resolution.h"
+#include "sharing/shared_bodies.h"
 #include "world/driven_body.h"
 #include "world/ties.h"
 
@@ -79,6 +80,7 @@ struct StepData {
     std::vector<std::uint8_t> jointed;  ///< events: [slots] 1 = has a joint; empty without joints
     std::vector<BodyPair> excluded;     ///< events: pairs that joints keep from touching, sorted
     std::vector<Sensed> sensed;         ///< detection: by sensor and body
+    double fastest = 0;                 ///< detection: how fast bodies may be that are struck in the step [m/s]
     std::vector<Vec3> surface;          ///< velocities: [slots] of fixed bodies' surfaces [m/s, W]; or empty
     std::vector<Carried> carried;       ///< velocities: [slots] by a moving law that their batch touches; or empty
     std::vector<std::uint8_t> not_sleeping;           ///< sleeping: [slots] 1 = does not fall asleep by itself
@@ -145,6 +147,8 @@ struct WorldState {
     std::vector<DrivenBody> driven;           ///< ascending by body
     std::optional<FrameMotion> frame;         ///< none = it rests
     Vec3 frame_acceleration = Vec3::Zero();   ///< events: what its motion gives all bodies in this step [m/s², W]
+
+    std::unique_ptr<SharedBodies> shared;  ///< with other ranks; null = the world is on one
 
     std::int64_t steps = 0;
     double time = 0;                  ///< [s]

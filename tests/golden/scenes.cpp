@@ -154,6 +154,7 @@ void GoldenRun::step() {
     // A time that is a whole number of steps belongs to that step, however it is rounded.
     const double now = run_.world().time() + 1e-9;
     while (!left_.empty() && left_.front().time <= now) {
+        run_.world().gather();
         left_.front().act(run_);
         left_ = left_.subspan(1);
     }

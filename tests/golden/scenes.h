@@ -58,6 +58,10 @@ class GoldenRun {
     /// Acts, then steps the world once.
     void step();
     void stepUntil(std::int64_t count);
+    /// As World::share().
+    void share(Ranks& ranks, const Partition& partition) { run_.world().share(ranks, partition); }
+    /// As World::gather().
+    void gather() { run_.world().gather(); }
     const World& world() const { return run_.world(); }
     double duration() const { return run_.scene().duration; }  ///< of the whole scene [s]
 

@@ -188,5 +188,44 @@ TEST(PairTable, AdoptedContactsLeaveTheirImpulses) {
     for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(other.contacts[i].last_impulse, row.contacts[i].last_impulse);
 }
 
+TEST(PairTable, WhatComesBringsItsContactsAndAllElseStays) {
+    Row here(6);
+    Row there(6);
+    here.detect();
+    there.detect();
+    here.mark();
+    // Bodies 2 and 3 leave with their contacts, and come back.
+    const auto leave = [&](Row& row, std::initializer_list<BodyIndex> bodies) {
+        std::vector<std::uint8_t> left(6, 0);
+        for (const BodyIndex i : bodies) {
+            left[i] = 1;
+            row.bodies.kind[i] = BodyKind::hole;
+        }
+        row.pairs.change({left, {}, {}}, row.contacts);
+    };
+    leave(here, {2, 3});
+    ASSERT_EQ(here.contacts.size(), 2U);
+    EXPECT_EQ(here.contacts[0].a, 0U);
+    EXPECT_EQ(here.contacts[1].a, 4U);
+    here.detect();
+    ASSERT_EQ(here.contacts.size(), 2U);
+    EXPECT_TRUE(here.isMarked(0) && here.isMarked(1)) << "what stays is known";
+
+    const std::vector<Contact> brought{there.contacts[1], there.contacts[2], there.contacts[3]};
+    const std::vector<BodyIndex> came{2, 3};
+    const std::vector<std::uint8_t> nobody(6, 0);
+    for (const BodyIndex i : came) here.bodies.kind[i] = BodyKind::dynamic;
+    here.pairs.change({nobody, came, brought}, here.contacts);
+    ASSERT_EQ(here.contacts.size(), 5U);
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(here.contacts[i].a, i);
+    for (Contact& contact : here.contacts) contact.last_impulse = Vec3(contact.a + 1, 0, 0);
+    here.detect();
+    ASSERT_EQ(here.contacts.size(), 5U);
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_EQ(here.isMarked(i), i == 0 || i == 4) << "contacts of what came are found anew";
+        EXPECT_EQ(here.contacts[i].last_impulse.x(), static_cast<double>(i + 1)) << "with their impulses";
+    }
+}
+
 }  // namespace
 }  // namespace cairn

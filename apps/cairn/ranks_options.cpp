@@ -1,0 +1,167 @@
+#include "ranks_options.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <vector>
+
+#include "cli/output.h"
+#include "commands.h"
+
+namespace cairn::cli {
+
+namespace {
+
+/// What the options say.
+struct RanksWish {
+    int count = 0;  ///< 0 = not said
+    Partition partition;
+    MessageDelay delay;
+};
+
+/// Numbers with a letter between them. @return empty if the text is none such
+template <class Number>
+std::vector<Number> parseNumbers(std::string_view text, char between) {
+    std::vector<Number> numbers;
+    const char* at = text.data();
+    const char* const end = text.data() + text.size();
+    for (;;) {
+        const auto [next, error] = std::from_chars(at, end, numbers.emplace_back());
+        if (error != std::errc()) return {};
+        if (next == end) return numbers;
+        if (*next != between) return {};
+        at = next + 1;
+    }
+}
+
+void parseRanks(const std::string& text, RanksWish& wish) {
+    const std::vector<int> parts = parseNumbers<int>(text, 'x');
+    const bool sound = (parts.size() == 1 || parts.size() == 3) &&
+                       std::ranges::all_of(parts, [](int part) { return part >= 1 && part <= 1024; });
+    if (!sound) {
+        throw InputError(fmt::format("--ranks is '{}'; it must be a number such as 4, or regions such as 2x2x1", text));
+    }
+    if (parts.size() == 1) {
+        wish.count = parts.front();
+        return;
+    }
+    const std::int64_t product = std::int64_t{parts[0]} * parts[1] * parts[2];
+    if (product > 1024) throw InputError(fmt::format("--ranks {} are {} ranks; 1024 are the most", text, product));
+    wish.count = static_cast<int>(product);
+    wish.partition.kind = Partition::Kind::grid;
+    wish.partition.parts = {parts[0], parts[1], parts[2]};
+}
+
+RanksWish parse(const RanksOptions& options) {
+    RanksWish wish;
+    if (!options.ranks.empty()) parseRanks(options.ranks, wish);
+    if (!options.partition.empty()) {
+        if (wish.partition.kind == Partition::Kind::grid) {
+            throw InputError(fmt::format("--ranks {} says how the world is cut; leave out --partition", options.ranks));
+        }
+        wish.partition.kind = partitionNamed(options.partition);
+    }
+    if (options.rebalance_every < 0) {
+        throw InputError(fmt::format("--rebalance-every is {}; it must be a number of time steps, or 0 for never",
+                                     options.rebalance_every));
+    }
+    wish.partition.rebalance_every = options.rebalance_every;
+    if (!options.delay.empty()) {
+        const std::vector<double> times = parseNumbers<double>(options.delay, ',');
+        if (times.size() != 2 || !(times[0] >= 0 && times[0] <= 1e6 && times[1] >= 0 && times[1] <= 1e6)) {
+            throw InputError(
+                fmt::format("--message-delay is '{}'; it must be microseconds per message and nanoseconds "
+                            "per byte, such as 5,1",
+                            options.delay));
+        }
+        wish.delay = {1e-6 * times[0], 1e-9 * times[1]};
+    }
+    return wish;
+}
+
+/// Prepares the run of one rank; what is wrong with it is wrong on all ranks, and the first one tells.
+int runShared(Ranks& ranks, const Partition& partition, const OutputOptions& outputs,
+              const std::function<PreparedRun()>& prepare) {
+    std::optional<PreparedRun> prepared;
+    std::optional<std::string> wrong;
+    try {
+        prepared.emplace(prepare());
+        prepared->run.world().share(ranks, partition);
+    } catch (const InputError& error) {
+        wrong = error.what();
+    }
+    if (const auto said = Together(&ranks).firstOf(wrong)) {
+        if (ranks.rank() == 0) throw InputError(*said);
+        return wrong_use;
+    }
+    return runToTheEnd(std::move(prepared->run), outputs, prepared->usual_checkpoint, &ranks);
+}
+
+/// Runs as one of the programs that mpirun started. An error that the others do not know of ends them all.
+int runByMpi(const RanksWish& wish, const OutputOptions& outputs, const std::function<PreparedRun()>& prepare) {
+    const std::unique_ptr<Ranks> ranks = mpiRanks();
+    const auto tell = [&](const std::string& problem, int exit_code) {
+        if (ranks->rank() == 0) printError(problem);
+        return exit_code;
+    };
+    if (wish.count != 0 && wish.count != ranks->size()) {
+        return tell(fmt::format("--ranks asks for {} ranks, mpirun started {}; let both be equal or leave out --ranks",
+                                wish.count, ranks->size()),
+                    wrong_use);
+    }
+    if (wish.delay.per_message > 0 || wish.delay.per_byte > 0) {
+        return tell("--message-delay is for ranks that are threads of one program; leave it out under mpirun",
+                    wrong_use);
+    }
+    try {
+        return runShared(*ranks, wish.partition, outputs, prepare);
+    } catch (const InputError& error) {
+        return tell(error.what(), wrong_use);
+    } catch (const std::exception& error) {
+        printError(fmt::format("rank {}: {}", ranks->rank(), error.what()));
+    } catch (const ReaderGone&) {
+    }
+    ranks->abandon(run_failed);
+    return run_failed;
+}
+
+}  // namespace
+
+void addRanksOptions(CLI::App& command, RanksOptions& options) {
+    command
+        .add_option("--ranks", options.ranks,
+                    "Share the world among so many ranks, threads of this program with a part of the bodies each; "
+                    "under mpirun: how the world is cut")
+        ->type_name("N|AxBxC");
+    command.add_option("--partition", options.partition, "How ranks cut the world; default: boxes")
+        ->type_name("boxes|x|y|z|hash");
+    command.add_option("--rebalance-every", options.rebalance_every, "Time steps after which ranks cut the world anew")
+        ->type_name("N");
+    command
+        .add_option("--message-delay", options.delay,
+                    "How late messages between ranks come, on purpose: microseconds each and nanoseconds per byte")
+        ->type_name("US,NS");
+}
+
+int runOnRanks(const RanksOptions& options, const OutputOptions& outputs, const std::function<PreparedRun()>& prepare) {
+    const RanksWish wish = parse(options);
+    if (isStartedByMpi()) return runByMpi(wish, outputs, prepare);
+    if (wish.count == 0) {
+        for (const auto& [given, name] : {std::pair(!options.partition.empty(), "--partition"),
+                                          std::pair(options.rebalance_every != 0, "--rebalance-every"),
+                                          std::pair(!options.delay.empty(), "--message-delay")}) {
+            if (given) throw InputError(fmt::format("{} needs --ranks, or mpirun", name));
+        }
+        PreparedRun prepared = prepare();
+        return runToTheEnd(std::move(prepared.run), outputs, prepared.usual_checkpoint);
+    }
+    int exit_code = run_failed;
+    const auto work = [&](Ranks& ranks) {
+        const int code = runShared(ranks, wish.partition, outputs, prepare);
+        if (ranks.rank() == 0) exit_code = code;
+    };
+    runRanks(wish.count, work, wish.delay);
+    return exit_code;
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,34 @@
+/// @file The options that share a run among ranks.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "runner.h"
+
+namespace cairn::cli {
+
+/// As given; empty = not given.
+struct RanksOptions {
+    std::string ranks;
+    std::string partition;
+    std::string delay;
+    std::int64_t rebalance_every = 0;
+};
+
+/// Adds --ranks, --partition, --rebalance-every and --message-delay. @param options must outlive the command
+void addRanksOptions(CLI::App& command, RanksOptions& options);
+
+/// A run, and where its checkpoints go if the option names no file.
+struct PreparedRun {
+    SceneRun run;
+    std::filesystem::path usual_checkpoint;
+};
+
+/// Prepares a run and simulates it to its end: on the ranks that mpirun started, on as many threads as --ranks says,
+/// or without other ranks. @param prepare called once for every rank, with the same result @return the exit code
+/// @throws InputError, IoError before it begins
+int runOnRanks(const RanksOptions& options, const OutputOptions& outputs, const std::function<PreparedRun()>& prepare);
+
+}  // namespace cairn::cli

@@ -1,0 +1,44 @@
+/// @file What the ranks of a run agree on; alone, a run agrees with itself.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cairn/scene.h"
+
+namespace cairn::cli {
+
+/// What the ranks of a run told each other, and how long they waited.
+struct RanksReport {
+    int count = 0;
+    Traffic sum;               ///< messages and bytes of all, rounds of one, waiting of all
+    double most_waiting = 0;   ///< of one rank [s]
+    double least_waiting = 0;  ///< likewise: of the slowest rank [s]
+};
+
+/// The ranks of a run as one of them sees it. Its calls are made by all of them, in the same order.
+class Together {
+  public:
+    /// @param ranks null = the run is on one
+    explicit Together(Ranks* ranks) : ranks_(ranks) {}
+
+    bool isShared() const { return ranks_ != nullptr; }
+    /// Whether this rank has the outputs and prints.
+    bool isFirst() const { return ranks_ == nullptr || ranks_->rank() == 0; }
+    /// Whether any rank says so.
+    bool anywhere(bool here);
+    /// What the lowest rank that has something to say says.
+    std::optional<std::string> firstOf(const std::optional<std::string>& own);
+    /// What all counted in the same steps, up to now. @param own of this rank
+    Statistics total(const Statistics& own, const World& world);
+    /// World::stateHash() of the whole world.
+    std::uint64_t hash(const World& world);
+    /// None for a run on one rank.
+    std::optional<RanksReport> report();
+
+  private:
+    Ranks* ranks_;
+};
+
+}  // namespace cairn::cli

@@ -1,0 +1,97 @@
+#include "regions/regions.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace cairn {
+
+namespace {
+
+int longestAxis(std::span<const Vec3> places) {
+    if (places.empty()) return 0;
+    Vec3 lower = places.front();
+    Vec3 upper = places.front();
+    for (const Vec3& place : places) {
+        lower = lower.cwiseMin(place);
+        upper = upper.cwiseMax(place);
+    }
+    int axis = 0;
+    (upper - lower).maxCoeff(&axis);
+    return axis;
+}
+
+/// The axis that so many ranks are cut across, and how many of them come before the plane.
+struct Cut {
+    int axis;
+    int before;
+};
+
+Cut cutOf(const Partition& partition, std::span<const Vec3> places, int ranks) {
+    using enum Partition::Kind;
+    if (partition.kind == x || partition.kind == y || partition.kind == z) {
+        return {static_cast<int>(partition.kind) - static_cast<int>(x), ranks / 2};
+    }
+    if (partition.kind == grid) {
+        // Slabs first: as long as more ranks are together than one slab has, whole slabs are parted.
+        int each = ranks;
+        for (int axis = 0; axis < 3; ++axis) {
+            int beneath = 1;
+            for (int other = axis + 1; other < 3; ++other) beneath *= partition.parts[static_cast<std::size_t>(other)];
+            if (ranks <= beneath) continue;
+            each = ranks / beneath;
+            return {axis, each / 2 * beneath};
+        }
+    }
+    return {longestAxis(places), ranks / 2};
+}
+
+}  // namespace
+
+Regions::Regions(const Partition& partition, int ranks, std::vector<Vec3> places) {
+    cut(partition, places, 0, ranks);
+}
+
+void Regions::cut(const Partition& partition, std::span<Vec3> places, int first, int ranks) {
+    const std::size_t node = nodes_.size();
+    nodes_.emplace_back().rank = first;
+    if (ranks == 1) return;
+    const auto [axis, before] = cutOf(partition, places, ranks);
+    const std::size_t count = places.size() * static_cast<std::size_t>(before) / static_cast<std::size_t>(ranks);
+    double plane = 0;
+    std::span<Vec3> below = places;
+    std::span<Vec3> above;
+    if (!places.empty()) {
+        const auto middle = places.begin() + static_cast<std::ptrdiff_t>(count);
+        std::nth_element(places.begin(), middle, places.end(),
+                         [axis = axis](const Vec3& p, const Vec3& q) { return p[axis] < q[axis]; });
+        plane = (*middle)[axis];
+        const auto end = std::partition(places.begin(), places.end(),
+                                        [&, axis = axis](const Vec3& place) { return place[axis] < plane; });
+        below = {places.begin(), end};
+        above = {end, places.end()};
+    }
+    nodes_[node].axis = axis;
+    nodes_[node].plane = plane;
+    cut(partition, below, first, before);
+    nodes_[node].second = nodes_.size();
+    cut(partition, above, first + before, ranks - before);
+}
+
+int Regions::ownerOf(const Vec3& place) const {
+    std::size_t node = 0;
+    while (nodes_[node].axis >= 0) {
+        node = place[nodes_[node].axis] < nodes_[node].plane ? node + 1 : nodes_[node].second;
+    }
+    return nodes_[node].rank;
+}
+
+void requirePartition(const Partition& partition, int ranks) {
+    if (partition.kind != Partition::Kind::grid) return;
+    const auto [nx, ny, nz] = partition.parts;
+    if (nx > 0 && ny > 0 && nz > 0 && std::int64_t{nx} * ny * nz == ranks) return;
+    throw InputError(fmt::format("a cut into {}x{}x{} regions is not one for {} ranks; their product must be {}", nx,
+                                 ny, nz, ranks, ranks));
+}
+
+}  // namespace cairn

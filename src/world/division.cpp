@@ -1,0 +1,138 @@
+#include "world/division.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+
+#include "joints/joint_kinds.h"
+#include "messages/packing.h"
+#include "world/couplings.h"
+#include "world/joints.h"
+#include "world/quarantine.h"
+
+namespace cairn {
+
+namespace {
+
+void tie(std::vector<BodyPair>& tied, BodyIndex a, BodyIndex b) {
+    if (a != Joint::world && b != Joint::world) tied.push_back({a, b});
+}
+
+std::vector<BodyPair> tiedBodies(const WorldState& world) {
+    std::vector<BodyPair> tied;
+    for (const Spring& spring : world.springs) {
+        if (spring.present) tie(tied, spring.a, spring.b);
+    }
+    for (const Joint& joint : world.joints) {
+        if (!joint.present) continue;
+        if (!entryOf(joint.kind).uses.couples) {
+            tie(tied, joint.a, joint.b);
+            continue;
+        }
+        // What is at one end of a coupling is not the same on all ranks: it depends on who is there.
+        const Joint& first = world.joints[joint.first];
+        const Joint& second = world.joints[joint.second];
+        for (const BodyIndex a : {first.a, first.b}) {
+            for (const BodyIndex b : {second.a, second.b}) tie(tied, a, b);
+        }
+    }
+    return tied;
+}
+
+void packFault(std::vector<std::byte>& message, const FaultInfo& fault) {
+    pack(message, fault.body);
+    pack(message, fault.step);
+    pack(message, static_cast<std::uint64_t>(fault.what.size()));
+    for (const char letter : fault.what) pack(message, letter);
+}
+
+FaultInfo unpackFault(Unpacker& in) {
+    FaultInfo fault;
+    fault.body = in.get<BodyId>();
+    fault.step = in.get<std::int64_t>();
+    fault.what.resize(in.get<std::uint64_t>());
+    for (char& letter : fault.what) letter = in.get<char>();
+    return fault;
+}
+
+/// Lists who is inside of the sensors of all ranks.
+void gatherSensed(WorldState& world) {
+    std::vector<Sensed>& sensed = world.data.sensed;
+    std::vector<std::byte> message;
+    for (const Sensed& one : sensed) pack(message, one);
+    sensed.clear();
+    for (const auto& told : tellAll(world.shared->ranks(), message)) {
+        for (Unpacker in(told); !in.isAtEnd();) sensed.push_back(in.get<Sensed>());
+    }
+    std::ranges::sort(sensed, {}, [](const Sensed& one) { return std::tuple(one.sensor, one.body); });
+}
+
+/// Adds up what the ranks counted in the last step, and lists the faults of all.
+void gatherReports(WorldState& world) {
+    Ranks& ranks = world.shared->ranks();
+    world.statistics = sumOverRanks(ranks, world.statistics);
+    std::vector<std::byte> message;
+    for (const FaultInfo& fault : world.faults) packFault(message, fault);
+    world.faults.clear();
+    for (const auto& told : tellAll(ranks, message)) {
+        for (Unpacker in(told); !in.isAtEnd();) world.faults.push_back(unpackFault(in));
+    }
+    measureOverlaps(world);
+    // What failed while all ranks had it is told by all.
+    const auto key = [](const FaultInfo& fault) { return std::tuple(fault.step, fault.body); };
+    const auto same = [&](const FaultInfo& one, const FaultInfo& other) { return key(one) == key(other); };
+    std::ranges::stable_sort(world.faults, {}, key);
+    world.faults.erase(std::unique(world.faults.begin(), world.faults.end(), same), world.faults.end());
+}
+
+}  // namespace
+
+void settleShared(WorldState& world, const DetectionRange& range) {
+    if (world.shared == nullptr) return;
+    if (world.shared->isWhole()) requireShareable(world);
+    const std::vector<BodyPair> tied = tiedBodies(world);
+    std::span<Vec3> begun;
+    if (world.settings.integration.exact_flight) begun = world.data.before.position;
+    StepData& data = world.data;
+    const bool changed = world.shared->settle(
+        {world.bodies, data.pairs, data.contacts, world.joints, begun, tied, range, data.fastest, world.steps, world.executor});
+    data.fastest = world.shared->fastest();
+    if (changed) prepareJoints(world);
+}
+
+void gatherShared(WorldState& world) {
+    if (world.shared == nullptr || world.shared->isWhole()) return;
+    StepData& data = world.data;
+    world.shared->gather(
+        {world.bodies, data.pairs, data.contacts, world.joints, {}, {}, {}, 0, world.steps, world.executor});
+    placeCouplings(world);
+    buildBatches(world.bodies.kind, data.contacts, data.batch_scratch, data.batches, world.joints);
+    listContacts(world.bodies.kind, data.contacts, data.contacts_of);
+    gatherSensed(world);
+    gatherReports(world);
+    world.lasting.reset();
+    ++world.places_version;
+}
+
+void requireWhole(const WorldState& world, std::string_view call) {
+    if (world.shared == nullptr || world.shared->isWhole()) return;
+    throw InputError(fmt::format(
+        "{} needs all bodies, and the world is divided among {} ranks: call World::gather() on all of them first", call,
+        world.shared->ranks().size()));
+}
+
+void requireShareable(const WorldState& world) {
+    const auto refuse = [](std::string_view what, std::string_view remedy) {
+        throw InputError(fmt::format("{} cannot be shared among ranks yet; {}", what, remedy));
+    };
+    if (world.settings.diagnostics.diagnostics) {
+        refuse("a world that measures diagnostics", "switch the setting off, or run it on one rank");
+    }
+    if (world.events.level != EventLevel::none) {
+        refuse("a world that notes events", "set its event level to none, or run it on one rank");
+    }
+}
+
+}  // namespace cairn

@@ -1,0 +1,23 @@
+/// @file A world that ranks share, as its calls and its step see it.
+#pragma once
+
+#include <string_view>
+
+#include "world/world_state.h"
+
+namespace cairn {
+
+/// Brings the bodies of a shared world to the ranks that will find their contacts; does nothing in other worlds.
+/// @param range of the detection that follows
+void settleShared(WorldState& world, const DetectionRange& range);
+
+/// Makes a shared world whole, on all ranks: bodies, contacts, batches, statistics and faults.
+void gatherShared(WorldState& world);
+
+/// @param call that needs all bodies, such as "World::addBody" @throws InputError if the world is divided among ranks
+void requireWhole(const WorldState& world, std::string_view call);
+
+/// @throws InputError for what a world that ranks share cannot have: the text names it and the remedy
+void requireShareable(const WorldState& world);
+
+}  // namespace cairn

@@ -1,0 +1,164 @@
+/// @file Runs that ranks share.
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <string>
+
+#include "cairn/recording.h"
+#include "cli/cli_fixture.h"
+
+namespace cairn::test {
+namespace {
+
+using nlohmann::json;
+
+class SharedRuns : public CommandLine {
+  protected:
+    json reportOf(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.end(), {"--json"});
+        const Finished done = cairn(arguments);
+        EXPECT_EQ(done.code, 0) << done.error;
+        return json::parse(done.out);
+    }
+};
+
+TEST_F(SharedRuns, EndAsThoseOfOneRank) {
+    const std::vector<std::string> run{"run", "stacks5", "--duration", "1"};
+    const json one = reportOf(run);
+    EXPECT_FALSE(one.contains("ranks"));
+    for (const std::vector<std::string>& division :
+         {std::vector<std::string>{"--ranks", "1"},
+          {"--ranks", "2", "--partition", "x"},
+          {"--ranks", "4"},
+          {"--ranks", "2x2x1"},
+          {"--ranks", "3", "--partition", "hash"},
+          {"--ranks", "3", "--rebalance-every", "5", "--message-delay", "20,1"}}) {
+        std::vector<std::string> shared = run;
+        shared.insert(shared.end(), division.begin(), division.end());
+        json report = reportOf(shared);
+        for (const std::string key : {"state_hash", "contacts", "iterations", "energy_J", "asleep", "lost"}) {
+            EXPECT_EQ(report[key], one[key]) << key;
+        }
+        EXPECT_EQ(report["overlap_mm"]["largest"], one["overlap_mm"]["largest"]);
+        EXPECT_NEAR(report["overlap_mm"]["mean"], one["overlap_mm"]["mean"], 1e-12);
+        const int count = report["ranks"]["count"];
+        EXPECT_EQ(count, division[1] == "2x2x1" ? 4 : std::stoi(division[1]));
+        EXPECT_EQ(report["ranks"]["bytes"] > 0, count > 1);
+        EXPECT_GT(report["ranks"]["rounds"], 0);
+    }
+}
+
+TEST_F(SharedRuns, SayWhatTheRanksTold) {
+    const Finished done = cairn({"run", "tower:3", "--duration", "0.1", "--ranks", "2"});
+    EXPECT_NE(done.out.find("ranks                     2; waiting"), std::string::npos) << done.out;
+    EXPECT_NE(done.out.find("rounds"), std::string::npos) << done.out;
+}
+
+TEST_F(SharedRuns, RecordWhatOneRankRecords) {
+    const std::vector<std::string> run{"run",      "stacks5",           "--duration", "0.5",
+                                       "--hashes", "--record-contacts", "--quiet",    "--record"};
+    std::vector<std::string> alone = run;
+    alone.emplace_back("one.h5");
+    std::vector<std::string> shared = run;
+    shared.insert(shared.end(), {"three.h5", "--ranks", "3", "--partition", "hash", "--stats", "three.csv"});
+    ASSERT_EQ(cairn(alone).code, 0);
+    ASSERT_EQ(cairn(shared).code, 0);
+    const Finished verified = cairn({"replay", "three.h5", "--verify"});
+    EXPECT_EQ(verified.code, 0) << verified.error;
+    const RecordingReader one(file("one.h5"));
+    const RecordingReader three(file("three.h5"));
+    ASSERT_EQ(one.info().frames, three.info().frames);
+    for (std::size_t i = 0; i < one.info().frames; ++i) {
+        const Frame a = one.frame(i);
+        const Frame b = three.frame(i);
+        EXPECT_EQ(a.step_hashes, b.step_hashes);
+        EXPECT_EQ(a.statistics.contacts, b.statistics.contacts);
+        EXPECT_EQ(a.statistics.mean_overlap, b.statistics.mean_overlap);
+        EXPECT_EQ(a.contact_impulse, b.contact_impulse);
+    }
+}
+
+TEST_F(SharedRuns, GoOnFromCheckpointsOnAnyNumberOfRanks) {
+    ASSERT_EQ(cairn({"run", "stacks5", "--duration", "0.5", "--quiet", "--checkpoint", "every=0s,file=half", "--ranks",
+                     "4", "--partition", "hash"})
+                  .code,
+              0);
+    const json whole = reportOf({"run", "stacks5", "--duration", "1"});
+    for (const std::vector<std::string>& ranks :
+         {std::vector<std::string>{}, {"--ranks", "2"}, {"--ranks", "5", "--partition", "y"}}) {
+        std::vector<std::string> resume{"resume", "half", "--duration", "1"};
+        resume.insert(resume.end(), ranks.begin(), ranks.end());
+        EXPECT_EQ(reportOf(resume)["state_hash"], whole["state_hash"]);
+    }
+}
+
+TEST_F(SharedRuns, TellWhatCannotBe) {
+    expectWrongUse({"run", "stacks5", "--ranks", "0"}, {"--ranks is '0'", "such as 4"});
+    expectWrongUse({"run", "stacks5", "--ranks", "2x2"}, {"--ranks is '2x2'", "2x2x1"});
+    expectWrongUse({"run", "stacks5", "--ranks", "100x100x1"}, {"10000 ranks; 1024 are the most"});
+    expectWrongUse({"run", "stacks5", "--ranks", "2x1x1", "--partition", "x"}, {"leave out --partition"});
+    expectWrongUse({"run", "stacks5", "--ranks", "2", "--partition", "q"}, {"partition 'q' is unknown", "hash"});
+    expectWrongUse({"run", "stacks5", "--partition", "x"}, {"--partition needs --ranks, or mpirun"});
+    expectWrongUse({"run", "stacks5", "--ranks", "2", "--message-delay", "5"}, {"--message-delay is '5'", "5,1"});
+    expectWrongUse({"run", "stacks5", "--ranks", "2", "--rebalance-every", "-1"}, {"--rebalance-every is -1"});
+    expectWrongUse({"run", "nothing", "--ranks", "3"}, {"no built-in scene and no file 'nothing'"});
+    expectWrongUse({"run", "stacks5", "--ranks", "2", "--set", "diagnostics=true"}, {"diagnostics", "on one rank"});
+}
+
+TEST_F(SharedRuns, EndOnAllRanksWhenAnOutputFails) {
+    const Finished done =
+        cairn({"run", "tower:3", "--ranks", "3", "--quiet", "--checkpoint", "every=0s,file=missing/c"});
+    EXPECT_EQ(done.code, 1);
+    EXPECT_NE(done.error.find("missing/c"), std::string::npos) << done.error;
+    const Finished full = cairn({"run", "tower:3", "--ranks", "3", "--quiet", "--stats", "/dev/full"});
+    EXPECT_EQ(full.code, 1);
+    EXPECT_NE(full.error.find("/dev/full"), std::string::npos) << full.error;
+}
+
+#ifdef CAIRN_MPIRUN
+/// Runs the program by mpirun. @return its exit code; the output is in the file "out"
+class MpiRuns : public SharedRuns {
+  protected:
+    int mpirun(int count, const std::string& arguments) const {
+        const std::string command = "cd " + folder().string() +
+                                    " && OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+                                    "OMPI_MCA_btl_vader_single_copy_mechanism=none "
+                                    "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_plm_rsh_agent=false " CAIRN_MPIRUN
+                                    " -n " +
+                                    std::to_string(count) + " " CAIRN_PROGRAM " " + arguments + " >out 2>error";
+        const int status = std::system(command.c_str());
+        return WEXITSTATUS(status);
+    }
+};
+
+TEST_F(MpiRuns, EndAsThoseOfOneRank) {
+    const json one = reportOf({"run", "stacks5", "--duration", "0.5"});
+    for (const int count : {2, 4}) {
+        ASSERT_EQ(mpirun(count, "run stacks5 --duration 0.5 --json"), 0) << read("error");
+        const json report = json::parse(read("out"));
+        EXPECT_EQ(report["state_hash"], one["state_hash"]);
+        EXPECT_EQ(report["ranks"]["count"], count);
+    }
+    ASSERT_EQ(mpirun(4, "run stacks5 --duration 0.5 --json --ranks 2x1x2"), 0) << read("error");
+    EXPECT_EQ(json::parse(read("out"))["state_hash"], one["state_hash"]);
+}
+
+TEST_F(MpiRuns, TellOnceWhatIsWrong) {
+    EXPECT_EQ(mpirun(2, "run nothing"), 2);
+    const std::string error = read("error");
+    const std::string text = "cairn: error: there is no built-in scene";
+    const std::size_t first = error.find(text);
+    ASSERT_NE(first, std::string::npos) << error;
+    EXPECT_EQ(error.find(text, first + 1), std::string::npos) << error;
+    EXPECT_EQ(mpirun(2, "run stacks5 --ranks 3"), 2);
+    EXPECT_NE(read("error").find("--ranks asks for 3 ranks, mpirun started 2"), std::string::npos);
+}
+
+TEST_F(MpiRuns, EndAllRanksWhenOneFails) {
+    EXPECT_EQ(mpirun(3, "run tower:3 --quiet --checkpoint every=0s,file=missing/c"), 1);
+    EXPECT_NE(read("error").find("rank 0: "), std::string::npos) << read("error");
+}
+#endif
+
+}  // namespace
+}  // namespace cairn::test

@@ -1,0 +1,118 @@
+/// The same input gives bit-identical states on any number of ranks, at every time step, whoever owns what.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cairn/ranks.h"
+#include "cairn/scene.h"
+#include "golden/scene_names.h"
+#include "golden/scenes.h"
+
+namespace cairn {
+namespace {
+
+struct Division {
+    const char* name;
+    int ranks;
+    Partition partition;
+};
+
+using Kind = Partition::Kind;
+
+/// Between them all numbers and cuts, those under which everything is a border, and owners that change in every step.
+const std::vector<Division> divisions{
+    {"two by hash, changing", 2, {.kind = Kind::hash, .restless = true}},
+    {"2x2x1", 4, {.kind = Kind::grid, .parts = {2, 2, 1}}},
+    {"one", 1, {}},
+    {"two along x", 2, {.kind = Kind::x}},
+    {"three along y", 3, {.kind = Kind::y}},
+    {"four along z", 4, {.kind = Kind::z}},
+    {"three by hash", 3, {.kind = Kind::hash}},
+    {"four boxes, changing", 4, {.restless = true}},
+    {"three boxes, rebalanced", 3, {.rebalance_every = 7}},
+};
+
+/// What a run on one rank comes to.
+struct Expected {
+    std::vector<std::uint64_t> hashes;  ///< after every step
+    std::vector<Statistics> steps;      ///< likewise
+    std::vector<ContactInfo> contacts;  ///< of the last step
+};
+
+Expected runAlone(const golden::GoldenScene& scene, golden::Kind kind) {
+    golden::GoldenRun run(scene, kind, 1);
+    Expected expected;
+    while (run.world().stepCount() < scene.hashSteps(kind).back()) {
+        run.step();
+        expected.hashes.push_back(run.world().stateHash());
+        expected.steps.push_back(run.world().statistics());
+    }
+    expected.contacts = run.world().contacts();
+    return expected;
+}
+
+void expectEqual(const Statistics& one, const Statistics& other) {
+    EXPECT_EQ(one.contacts, other.contacts);
+    EXPECT_EQ(one.penetrating_contacts, other.penetrating_contacts);
+    EXPECT_EQ(one.corrected_contacts, other.corrected_contacts);
+    EXPECT_EQ(one.displaced_bodies, other.displaced_bodies);
+    EXPECT_EQ(one.global_iterations, other.global_iterations);
+    EXPECT_EQ(one.batches, other.batches);
+    EXPECT_EQ(one.largest_batch, other.largest_batch);
+    EXPECT_EQ(one.asleep, other.asleep);
+    EXPECT_EQ(one.woken, other.woken);
+    EXPECT_EQ(one.largest_overlap, other.largest_overlap);
+}
+
+void expectEqual(const std::vector<ContactInfo>& some, const std::vector<ContactInfo>& others) {
+    ASSERT_EQ(some.size(), others.size());
+    for (std::size_t i = 0; i < some.size(); ++i) {
+        EXPECT_EQ(some[i].a, others[i].a);
+        EXPECT_EQ(some[i].b, others[i].b);
+        EXPECT_EQ(some[i].point, others[i].point);
+        EXPECT_EQ(some[i].impulse, others[i].impulse);
+        EXPECT_EQ(some[i].batch, others[i].batch);
+    }
+}
+
+class RanksAgree : public testing::TestWithParam<golden::SceneAndKind> {};
+
+TEST_P(RanksAgree, StatesAreThoseOfOneRankAtEveryStep) {
+    const auto [name, kind] = GetParam();
+    const golden::GoldenScene& scene = golden::goldenScene(name);
+    const Expected expected = runAlone(scene, kind);
+    // With the slower settings two will do.
+    const auto some = std::span(divisions).first(kind == golden::Kind::performance ? divisions.size() : 2);
+    for (const Division& division : some) {
+        SCOPED_TRACE(division.name);
+        runRanks(division.ranks, [&](Ranks& ranks) {
+            golden::GoldenRun run(scene, kind, 1);
+            run.share(ranks, division.partition);
+            for (std::size_t i = 0; i < expected.hashes.size(); ++i) {
+                SCOPED_TRACE("time step " + std::to_string(i + 1));
+                run.step();
+                ASSERT_TRUE(run.world().isDivided());
+                ASSERT_EQ(sumOverRanks(ranks, run.world().stateHash()), expected.hashes[i]);
+                expectEqual(sumOverRanks(ranks, run.world().statistics()), expected.steps[i]);
+                if (testing::Test::HasFailure()) return;
+            }
+            run.gather();
+            EXPECT_FALSE(run.world().isDivided());
+            EXPECT_EQ(run.world().stateHash(), expected.hashes.back());
+            EXPECT_TRUE(run.world().faults().empty());
+            expectEqual(run.world().statistics(), expected.steps.back());
+            EXPECT_EQ(run.world().statistics().mean_overlap, expected.steps.back().mean_overlap);
+            expectEqual(run.world().contacts(), expected.contacts);
+        });
+        if (HasFatalFailure()) return;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, RanksAgree, testing::ValuesIn(golden::everySceneWithEveryKind()),
+                         golden::nameOfSceneAndKind);
+
+}  // namespace
+}  // namespace cairn

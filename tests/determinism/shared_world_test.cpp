@@ -1,0 +1,270 @@
+/// Worlds that ranks share: scenes that move by laws, faults, what users do between steps, and what is refused.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "cairn/ranks.h"
+#include "cairn/scene.h"
+
+namespace cairn {
+namespace {
+
+constexpr Partition by_hash{.kind = Partition::Kind::hash};
+constexpr Partition restless{.kind = Partition::Kind::hash, .restless = true};
+
+/// Lets a scene run so many steps, alone and on three ranks, and expects the same states.
+void expectSameSteps(const Scene& scene, int steps, const Partition& partition) {
+    SceneRun alone(scene, settingsFor(scene));
+    std::vector<std::uint64_t> hashes;
+    for (int i = 0; i < steps; ++i) {
+        alone.step();
+        hashes.push_back(alone.world().stateHash());
+    }
+    runRanks(3, [&](Ranks& ranks) {
+        SceneRun run(scene, settingsFor(scene));
+        run.world().share(ranks, partition);
+        for (int i = 0; i < steps; ++i) {
+            run.step();
+            ASSERT_EQ(sumOverRanks(ranks, run.world().stateHash()), hashes[static_cast<std::size_t>(i)]) << i;
+        }
+        run.world().gather();
+        EXPECT_EQ(run.world().kineticEnergy(), alone.world().kineticEnergy());
+        EXPECT_EQ(run.world().potentialEnergy(), alone.world().potentialEnergy());
+        EXPECT_TRUE(std::ranges::equal(run.world().sensed(), alone.world().sensed()));
+        EXPECT_TRUE(run.world().save() == alone.world().save());
+    });
+}
+
+class LawsAndMachines : public testing::TestWithParam<const char*> {};
+
+TEST_P(LawsAndMachines, GiveTheSameStatesOnAnyNumberOfRanks) {
+    expectSameSteps(builtInScene(GetParam()), 60, {});
+    expectSameSteps(builtInScene(GetParam()), 60, restless);
+}
+
+// An earthquake, a turning drum with a belt, a sensor, and drives of joints.
+INSTANTIATE_TEST_SUITE_P(Scenes, LawsAndMachines,
+                         testing::Values("shake_table", "drum", "rockfall", "excavator", "cradle_swing:5:2"));
+
+SceneBody ballAt(const Vec3& position) {
+    SceneBody ball;
+    ball.shape = Sphere{0.1};
+    ball.material = "stone";
+    ball.position = position;
+    return ball;
+}
+
+/// Balls over a plane, in a row.
+Scene row(int count) {
+    Scene scene;
+    scene.name = "row";
+    scene.duration = 1;
+    scene.gravity = {0, 0, -9.81};
+    scene.materials = {{"stone", 2500}};
+    SceneBody ground;
+    ground.shape = HalfSpace{Vec3::UnitZ(), 0};
+    ground.material = "stone";
+    ground.fixed = true;
+    scene.bodies = {ground};
+    for (int i = 0; i < count; ++i) scene.bodies.push_back(ballAt({0.5 * i, 0, 0.1 + 0.05 * i}));
+    return scene;
+}
+
+TEST(SharedWorld, KeepsWhatSpringsConnectTogether) {
+    Scene scene = row(8);
+    scene.springs.push_back(
+        {.a = 1, .b = 8, .anchor_b = Vec3::Zero(), .stiffness = 300, .damping = 1, .rest_length = 3});
+    scene.springs.push_back({.a = 3, .b = {}, .anchor_b = {1, 1, 1}, .stiffness = 100, .damping = 1});
+    expectSameSteps(scene, 120, {.kind = Partition::Kind::x});
+    expectSameSteps(scene, 120, restless);
+}
+
+TEST(SharedWorld, KeepsWhatAGearCouplesTogether) {
+    Scene scene = row(6);
+    const auto wheel = [&](double x) {
+        SceneBody box = ballAt({x, 2, 2});
+        box.shape = Box{{0.4, 0.1, 0.4}};
+        scene.bodies.push_back(box);
+        JointDescription hinge{.kind = JointKind::hinge, .anchor = {x + 0.1, 2, 2}, .axis = Vec3::UnitY()};
+        scene.joints.push_back({scene.bodies.size() - 1, {}, hinge});
+    };
+    wheel(0);
+    wheel(5);
+    SceneJoint gear;
+    gear.joint.kind = JointKind::gear;
+    gear.joint.ratio = -2;
+    gear.first = 0;
+    gear.second = 1;
+    scene.joints.push_back(gear);
+    expectSameSteps(scene, 120, {.kind = Partition::Kind::x});
+    expectSameSteps(scene, 120, restless);
+}
+
+TEST(SharedWorld, HasBodiesOnOneRankEach) {
+    const Scene scene = row(12);
+    std::atomic<int> here = 0;
+    runRanks(4, [&](Ranks& ranks) {
+        SceneRun run(scene, settingsFor(scene));
+        run.world().share(ranks, {.kind = Partition::Kind::x});
+        run.step();
+        int own = 0;
+        for (std::size_t i = 1; i <= 12; ++i) {
+            if (!run.world().contains(run.ids()[i])) continue;
+            ++own;
+            EXPECT_EQ((static_cast<int>(i) - 1) / 3, ranks.rank());
+        }
+        EXPECT_TRUE(run.world().contains(run.ids()[0]));
+        EXPECT_EQ(own, 3);
+        here += own;
+    });
+    EXPECT_EQ(here, 12);
+}
+
+/// What a user does to a world in the middle of a run.
+void meddle(SceneRun& run) {
+    World& world = run.world();
+    world.removeBody(run.ids()[2]);
+    BodyDescription description;
+    description.shape = Box{Vec3::Constant(0.3)};
+    description.pose.position = {1.5, 0, 0.8};
+    const BodyId box = world.addBody(description);
+    world.addJoint({.kind = JointKind::distance,
+                    .a = box,
+                    .b = run.ids()[5],
+                    .anchor = {1.5, 0, 0.8},
+                    .anchor_b = Vec3(2, 0, 0.1)});
+    world.setPose(run.ids()[7], {{0.1, 0, 0.6}, Quat::Identity()});
+    world.applyImpulse(run.ids()[4], {3, 1, 0});
+    world.setConstantForce(run.ids()[6], {-5, 0, 0});
+    world.setFixed(run.ids()[8], true);
+}
+
+TEST(SharedWorld, TakesCallsOnceItIsGathered) {
+    const Scene scene = row(8);
+    SceneRun alone(scene, settingsFor(scene));
+    for (int i = 0; i < 60; ++i) alone.step();
+    meddle(alone);
+    for (int i = 0; i < 120; ++i) alone.step();
+    for (const Partition& partition : {Partition{}, by_hash, restless}) {
+        runRanks(3, [&](Ranks& ranks) {
+            SceneRun run(scene, settingsFor(scene));
+            run.world().share(ranks, partition);
+            for (int i = 0; i < 60; ++i) run.step();
+            EXPECT_THROW(meddle(run), InputError);
+            run.world().gather();
+            meddle(run);
+            for (int i = 0; i < 120; ++i) run.step();
+            run.world().gather();
+            EXPECT_TRUE(run.world().save() == alone.world().save());
+        });
+    }
+}
+
+TEST(SharedWorld, KnowsABodyThatFailedOnAllRanks) {
+    Scene scene = row(8);
+    // Comes by in the step in which it leaves the limits of speed, and is then in the way of others.
+    scene.events.push_back({0.05, SetForce{4, {1e20, 0, 0}}});
+    SceneRun alone(scene, settingsFor(scene));
+    for (int i = 0; i < 60; ++i) alone.step();
+    ASSERT_EQ(alone.world().faults().size(), 1U);
+    for (const Partition& partition : {Partition{}, restless}) {
+        runRanks(3, [&](Ranks& ranks) {
+            SceneRun run(scene, settingsFor(scene));
+            run.world().share(ranks, partition);
+            for (int i = 0; i < 60; ++i) run.step();
+            EXPECT_TRUE(run.world().contains(run.ids()[4])) << "what is fixed is on all ranks";
+            EXPECT_EQ(sumOverRanks(ranks, run.world().stateHash()), alone.world().stateHash());
+            run.world().gather();
+            ASSERT_EQ(run.world().faults().size(), 1U);
+            EXPECT_EQ(run.world().faults()[0].what, alone.world().faults()[0].what);
+            EXPECT_EQ(run.world().stateHash(), alone.world().stateHash());
+        });
+    }
+}
+
+TEST(SharedWorld, GoesOnFromASnapshotOfAllRanksOnOthers) {
+    const Scene scene = builtInScene("stacks5");
+    SceneRun alone(scene, settingsFor(scene));
+    for (int i = 0; i < 100; ++i) alone.step();
+    std::vector<std::byte> snapshot;
+    runRanks(4, [&](Ranks& ranks) {
+        SceneRun run(scene, settingsFor(scene));
+        run.world().share(ranks, by_hash);
+        for (int i = 0; i < 50; ++i) run.step();
+        run.world().gather();
+        if (ranks.rank() == 0) snapshot = run.save();
+    });
+    for (const int count : {1, 2, 5}) {
+        runRanks(count, [&](Ranks& ranks) {
+            SceneRun run = SceneRun::restore(snapshot);
+            run.world().share(ranks, {.kind = Partition::Kind::y});
+            for (int i = 0; i < 50; ++i) run.step();
+            EXPECT_EQ(sumOverRanks(ranks, run.world().stateHash()), alone.world().stateHash());
+        });
+    }
+}
+
+/// The text of the error of a call.
+template <class Call>
+std::string errorOf(const Call& call) {
+    try {
+        call();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(SharedWorld, RefusesWhatItCannotDo) {
+    const Scene scene = row(4);
+    runRanks(2, [&](Ranks& ranks) {
+        SceneRun run(scene, settingsFor(scene));
+        World& world = run.world();
+        EXPECT_EQ(errorOf([&] {
+                      world.share(ranks, {.kind = Partition::Kind::grid, .parts = {3, 1, 1}});
+                  }),
+                  "a cut into 3x1x1 regions is not one for 2 ranks; their product must be 2");
+        Settings measured = world.settings();
+        measured.diagnostics.diagnostics = true;
+        world.setSettings(measured);
+        EXPECT_EQ(errorOf([&] { world.share(ranks); }),
+                  "a world that measures diagnostics cannot be shared among ranks yet; switch the setting off, or run "
+                  "it on one rank");
+        measured.diagnostics.diagnostics = false;
+        world.setSettings(measured);
+        world.setEventLevel(EventLevel::changes);
+        EXPECT_NE(errorOf([&] { world.share(ranks); }).find("notes events"), std::string::npos);
+        world.setEventLevel(EventLevel::none);
+        world.share(ranks, {.kind = Partition::Kind::x});
+        run.step();
+        const std::string text =
+            "World::castRay needs all bodies, and the world is divided among 2 ranks: call World::gather() on all of "
+            "them first";
+        EXPECT_EQ(errorOf([&] { world.castRay({}); }), text);
+        EXPECT_NE(errorOf([&] { world.save(); }), "no error");
+        EXPECT_NE(errorOf([&] { world.addBody({}); }), "no error");
+        const BodyId absent = run.ids()[ranks.rank() == 0 ? 4 : 1];
+        EXPECT_NE(errorOf([&] { world.pose(absent); }).find("on another rank"), std::string::npos);
+    });
+}
+
+TEST(SharedWorld, EndsOnAllRanksWhenOneFails) {
+    const Scene scene = row(4);
+    EXPECT_THROW(runRanks(3,
+                          [&](Ranks& ranks) {
+                              SceneRun run(scene, settingsFor(scene));
+                              run.world().share(ranks);
+                              for (int i = 0; i < 100; ++i) {
+                                  if (i == 50 && ranks.rank() == 1) throw IoError("disk full");
+                                  run.step();
+                              }
+                          }),
+                 IoError);
+}
+
+}  // namespace
+}  // namespace cairn
