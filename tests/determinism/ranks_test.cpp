@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "cairn/ranks.h"
@@ -81,7 +83,8 @@ void expectEqual(const std::vector<ContactInfo>& some, const std::vector<Contact
 class RanksAgree : public testing::TestWithParam<golden::SceneAndKind> {};
 
 TEST_P(RanksAgree, StatesAreThoseOfOneRankAtEveryStep) {
-    const auto [name, kind] = GetParam();
+    const std::string_view name = std::get<0>(GetParam());
+    const golden::Kind kind = std::get<1>(GetParam());
     const golden::GoldenScene& scene = golden::goldenScene(name);
     const Expected expected = runAlone(scene, kind);
     // With the slower settings two will do.
