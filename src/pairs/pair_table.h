@@ -52,7 +52,8 @@ class PairTable {
 
     /// Finds the contacts that nobody foresaw, since a body of theirs was struck by the resolution, and adds them
     /// behind those of their pairs. @pre detect() was the last call, and it looked ahead
-    /// @param fastest bodies are followed as far as this speed leads them [m/s] @param contacts with impulses, which they
+    /// @param fastest bodies are followed as far as this speed leads them [m/s] @param contacts with impulses, which
+    /// they
     ///        keep @param added out: indices of the new ones, ascending
     void followStruck(const PairsInput& input, double fastest, std::vector<Contact>& contacts,
                       std::vector<std::uint32_t>& added);

@@ -96,8 +96,8 @@ void settleShared(WorldState& world, const DetectionRange& range) {
     std::span<Vec3> begun;
     if (world.settings.integration.exact_flight) begun = world.data.before.position;
     StepData& data = world.data;
-    const bool changed = world.shared->settle(
-        {world.bodies, data.pairs, data.contacts, world.joints, begun, tied, range, data.fastest, world.steps, world.executor});
+    const bool changed = world.shared->settle({world.bodies, data.pairs, data.contacts, world.joints, begun, tied,
+                                               range, data.fastest, world.steps, world.executor});
     data.fastest = world.shared->fastest();
     if (changed) prepareJoints(world);
 }
