@@ -48,7 +48,7 @@ void parseRanks(const std::string& text, RanksWish& wish) {
     const std::int64_t product = std::int64_t{parts[0]} * parts[1] * parts[2];
     if (product > 1024) throw InputError(fmt::format("--ranks {} are {} ranks; 1024 are the most", text, product));
     wish.count = static_cast<int>(product);
-    wish.partition.kind = Partition::Kind::grid;
+    wish.partition.kind = PartitionKind::grid;
     wish.partition.parts = {parts[0], parts[1], parts[2]};
 }
 
@@ -56,7 +56,7 @@ RanksWish parse(const RanksOptions& options) {
     RanksWish wish;
     if (!options.ranks.empty()) parseRanks(options.ranks, wish);
     if (!options.partition.empty()) {
-        if (wish.partition.kind == Partition::Kind::grid) {
+        if (wish.partition.kind == PartitionKind::grid) {
             throw InputError(fmt::format("--ranks {} says how the world is cut; leave out --partition", options.ranks));
         }
         wish.partition.kind = partitionNamed(options.partition);

@@ -75,25 +75,26 @@ bool isStartedByMpi();
 /// @throws InputError if Cairn was built without MPI: the text says how to build it with
 std::unique_ptr<Ranks> mpiRanks();
 
+/// What says whose a place is.
+enum class PartitionKind : std::uint8_t {
+    boxes,  ///< cut in halves of as many bodies, again and again, across the longest extent
+    x,      ///< slabs of as many bodies along an axis
+    y,
+    z,
+    grid,  ///< slabs along x, each cut along y, each of these along z
+    hash   ///< by number, wherever bodies are: everything is a border, for tests
+};
+
 /// How bodies are dealt out to ranks. No result depends on it.
 struct Partition {
-    /// What says whose a place is.
-    enum class Kind : std::uint8_t {
-        boxes,  ///< cut in halves of as many bodies, again and again, across the longest extent
-        x,      ///< slabs of as many bodies along an axis
-        y,
-        z,
-        grid,  ///< slabs along x, each cut along y, each of these along z
-        hash   ///< by number, wherever bodies are: everything is a border, for tests
-    };
-    Kind kind = Kind::boxes;            ///< of the cuts
-    std::array<int, 3> parts{1, 1, 1};  ///< of a grid, along each axis; their product is the number of ranks
-    bool restless = false;              ///< all bodies change hands in every step, for tests
-    std::int64_t rebalance_every = 0;   ///< time steps after which the cuts are made anew; 0 = never
+    PartitionKind kind = PartitionKind::boxes;  ///< of the cuts
+    std::array<int, 3> parts{1, 1, 1};          ///< of a grid, along each axis; their product is the number of ranks
+    bool restless = false;                      ///< all bodies change hands in every step, for tests
+    std::int64_t rebalance_every = 0;           ///< time steps after which the cuts are made anew; 0 = never
 };
 
 /// The kind with a name: boxes, x, y, z or hash. @throws InputError for another name; the text names all
-Partition::Kind partitionNamed(std::string_view name);
+PartitionKind partitionNamed(std::string_view name);
 
 /// What all ranks counted: the sums of numbers, the largest sizes, and the times of the slowest; without the mean
 /// overlap, which is World::statistics() after World::gather(). To be called by all ranks. @param own of this rank

@@ -43,7 +43,7 @@ WITHOUT: dict[str, str] = {
     "World.contactsTo": "World.contacts()",
     "World.bodyViews": "World.bodies",
     "World.contains": "id in world",
-    **dict.fromkeys(("Ranks", "Traffic", "RankLostError", "MessageDelay", "Partition"), "ranks are for programs in C++"),
+    **dict.fromkeys(("Ranks", "Traffic", "RankLostError", "MessageDelay", "Partition", "PartitionKind"), "ranks are for programs in C++"),
     **dict.fromkeys(("runRanks", "mpiRanks", "isStartedByMpi", "partitionNamed", "sumOverRanks"), "likewise"),
     **dict.fromkeys(("World.share", "World.gather", "World.isDivided"), "likewise"),
 }
@@ -106,7 +106,7 @@ def enumerators() -> Iterator[tuple[str, list[str]]]:
         text = re.sub(r"//.*", "", header.read_text(encoding="utf-8"))
         for name, body in re.findall(r"enum class (\w+)[^{};]*\{([^}]*)\}", text):
             members = [member.split("=")[0].strip() for member in body.split(",") if member.strip()]
-            if members:
+            if members and name not in WITHOUT:
                 yield name, members
 
 

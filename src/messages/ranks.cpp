@@ -27,9 +27,9 @@ Ranks::Messages Ranks::exchange(Messages out) {
     return in;
 }
 
-Partition::Kind partitionNamed(std::string_view name) {
-    using enum Partition::Kind;
-    constexpr std::array<std::pair<std::string_view, Partition::Kind>, 5> names{
+PartitionKind partitionNamed(std::string_view name) {
+    using enum PartitionKind;
+    constexpr std::array<std::pair<std::string_view, PartitionKind>, 5> names{
         {{"boxes", boxes}, {"x", x}, {"y", y}, {"z", z}, {"hash", hash}}};
     for (const auto& [known, kind] : names) {
         if (name == known) return kind;

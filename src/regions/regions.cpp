@@ -28,7 +28,7 @@ struct Cut {
 };
 
 Cut cutOf(const Partition& partition, std::span<const Vec3> places, int ranks) {
-    using enum Partition::Kind;
+    using enum PartitionKind;
     if (partition.kind == x || partition.kind == y || partition.kind == z) {
         return {static_cast<int>(partition.kind) - static_cast<int>(x), ranks / 2};
     }
@@ -87,7 +87,7 @@ int Regions::ownerOf(const Vec3& place) const {
 }
 
 void requirePartition(const Partition& partition, int ranks) {
-    if (partition.kind != Partition::Kind::grid) return;
+    if (partition.kind != PartitionKind::grid) return;
     const auto [nx, ny, nz] = partition.parts;
     if (nx > 0 && ny > 0 && nz > 0 && std::int64_t{nx} * ny * nz == ranks) return;
     throw InputError(fmt::format("a cut into {}x{}x{} regions is not one for {} ranks; their product must be {}", nx,

@@ -254,7 +254,7 @@ void SharedBodies::findOwners(const DealtOut& world) {
 int SharedBodies::ownerOf(const DealtOut& world, BodyIndex group) const {
     const auto count = static_cast<std::uint64_t>(ranks_.size());
     const auto turn = partition_.restless ? static_cast<std::uint64_t>(world.step) : 0;
-    if (partition_.kind == Partition::Kind::hash) {
+    if (partition_.kind == PartitionKind::hash) {
         return static_cast<int>((mixed(world.bodies.number[group] + 1) + turn) % count);
     }
     return static_cast<int>((static_cast<std::uint64_t>(regions_->ownerOf(groups_.middleOf(group))) + turn) % count);

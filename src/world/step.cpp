@@ -63,9 +63,10 @@ PairsInput pairsInput(WorldState& world, const DetectionRange& range) {
 
 /// The highest speed that an impact of two bodies gives: that of the fastest point there is, to a light body that
 /// bounces, twice [m/s].
-double fastestAfterImpact(const WorldState& world) {
+double fastestAfterImpact(WorldState& world) {
     const BodyStorage& b = world.bodies;
-    std::vector<double> fastest(static_cast<std::size_t>(world.executor.threads()), 0.0);
+    std::vector<double>& fastest = world.data.fastest_of;
+    fastest.assign(static_cast<std::size_t>(world.executor.threads()), 0.0);
     world.executor.forBlocks(b.slots(), [&](std::size_t begin, std::size_t end, int thread) {
         double& most = fastest[static_cast<std::size_t>(thread)];
         for (std::size_t i = begin; i < end; ++i) {

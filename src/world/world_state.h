@@ -80,6 +80,7 @@ struct StepData {
     std::vector<std::uint8_t> jointed;  ///< events: [slots] 1 = has a joint; empty without joints
     std::vector<BodyPair> excluded;     ///< events: pairs that joints keep from touching, sorted
     std::vector<Sensed> sensed;         ///< detection: by sensor and body
+    std::vector<double> fastest_of;     ///< detection: [threads] kept memory
     double fastest = 0;                 ///< detection: how fast bodies may be that are struck in the step [m/s]
     std::vector<Vec3> surface;          ///< velocities: [slots] of fixed bodies' surfaces [m/s, W]; or empty
     std::vector<Carried> carried;       ///< velocities: [slots] by a moving law that their batch touches; or empty

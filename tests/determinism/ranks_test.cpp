@@ -22,7 +22,7 @@ struct Division {
     Partition partition;
 };
 
-using Kind = Partition::Kind;
+using Kind = PartitionKind;
 
 /// Between them all numbers and cuts, those under which everything is a border, and owners that change in every step.
 const std::vector<Division> divisions{

@@ -13,8 +13,8 @@
 namespace cairn {
 namespace {
 
-constexpr Partition by_hash{.kind = Partition::Kind::hash};
-constexpr Partition restless{.kind = Partition::Kind::hash, .restless = true};
+constexpr Partition by_hash{.kind = PartitionKind::hash};
+constexpr Partition restless{.kind = PartitionKind::hash, .restless = true};
 
 /// Lets a scene run so many steps, alone and on three ranks, and expects the same states.
 void expectSameSteps(const Scene& scene, int steps, const Partition& partition) {
@@ -79,7 +79,7 @@ TEST(SharedWorld, KeepsWhatSpringsConnectTogether) {
     scene.springs.push_back(
         {.a = 1, .b = 8, .anchor_b = Vec3::Zero(), .stiffness = 300, .damping = 1, .rest_length = 3});
     scene.springs.push_back({.a = 3, .b = {}, .anchor_b = {1, 1, 1}, .stiffness = 100, .damping = 1});
-    expectSameSteps(scene, 120, {.kind = Partition::Kind::x});
+    expectSameSteps(scene, 120, {.kind = PartitionKind::x});
     expectSameSteps(scene, 120, restless);
 }
 
@@ -100,7 +100,7 @@ TEST(SharedWorld, KeepsWhatAGearCouplesTogether) {
     gear.first = 0;
     gear.second = 1;
     scene.joints.push_back(gear);
-    expectSameSteps(scene, 120, {.kind = Partition::Kind::x});
+    expectSameSteps(scene, 120, {.kind = PartitionKind::x});
     expectSameSteps(scene, 120, restless);
 }
 
@@ -109,7 +109,7 @@ TEST(SharedWorld, HasBodiesOnOneRankEach) {
     std::atomic<int> here = 0;
     runRanks(4, [&](Ranks& ranks) {
         SceneRun run(scene, settingsFor(scene));
-        run.world().share(ranks, {.kind = Partition::Kind::x});
+        run.world().share(ranks, {.kind = PartitionKind::x});
         run.step();
         int own = 0;
         for (std::size_t i = 1; i <= 12; ++i) {
@@ -201,7 +201,7 @@ TEST(SharedWorld, GoesOnFromASnapshotOfAllRanksOnOthers) {
     for (const int count : {1, 2, 5}) {
         runRanks(count, [&](Ranks& ranks) {
             SceneRun run = SceneRun::restore(snapshot);
-            run.world().share(ranks, {.kind = Partition::Kind::y});
+            run.world().share(ranks, {.kind = PartitionKind::y});
             for (int i = 0; i < 50; ++i) run.step();
             EXPECT_EQ(sumOverRanks(ranks, run.world().stateHash()), alone.world().stateHash());
         });
@@ -225,7 +225,7 @@ TEST(SharedWorld, RefusesWhatItCannotDo) {
         SceneRun run(scene, settingsFor(scene));
         World& world = run.world();
         EXPECT_EQ(errorOf([&] {
-                      world.share(ranks, {.kind = Partition::Kind::grid, .parts = {3, 1, 1}});
+                      world.share(ranks, {.kind = PartitionKind::grid, .parts = {3, 1, 1}});
                   }),
                   "a cut into 3x1x1 regions is not one for 2 ranks; their product must be 2");
         Settings measured = world.settings();
@@ -239,7 +239,7 @@ TEST(SharedWorld, RefusesWhatItCannotDo) {
         world.setEventLevel(EventLevel::changes);
         EXPECT_NE(errorOf([&] { world.share(ranks); }).find("notes events"), std::string::npos);
         world.setEventLevel(EventLevel::none);
-        world.share(ranks, {.kind = Partition::Kind::x});
+        world.share(ranks, {.kind = PartitionKind::x});
         run.step();
         const std::string text =
             "World::castRay needs all bodies, and the world is divided among 2 ranks: call World::gather() on all of "

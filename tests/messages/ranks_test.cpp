@@ -96,8 +96,8 @@ TEST(Ranks, RefuseNumbersAndDelaysThatCannotBe) {
 }
 
 TEST(Partition, IsNamed) {
-    EXPECT_EQ(partitionNamed("y"), Partition::Kind::y);
-    EXPECT_EQ(partitionNamed("hash"), Partition::Kind::hash);
+    EXPECT_EQ(partitionNamed("y"), PartitionKind::y);
+    EXPECT_EQ(partitionNamed("hash"), PartitionKind::hash);
     try {
         partitionNamed("w");
         FAIL();

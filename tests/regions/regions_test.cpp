@@ -25,7 +25,7 @@ std::vector<int> countsOf(const Regions& regions, int ranks) {
 }
 
 TEST(Regions, HaveAsManyPlacesEach) {
-    for (const auto kind : {Partition::Kind::boxes, Partition::Kind::x, Partition::Kind::y, Partition::Kind::z}) {
+    for (const auto kind : {PartitionKind::boxes, PartitionKind::x, PartitionKind::y, PartitionKind::z}) {
         for (const int ranks : {1, 2, 3, 4, 7, 8}) {
             for (const int count : countsOf(Regions({.kind = kind}, ranks, somePlaces()), ranks)) {
                 EXPECT_NEAR(count, 1000 / ranks, 3);
@@ -35,7 +35,7 @@ TEST(Regions, HaveAsManyPlacesEach) {
 }
 
 TEST(Regions, AreSlabsAlongAnAxis) {
-    const Regions regions({.kind = Partition::Kind::y}, 4, somePlaces());
+    const Regions regions({.kind = PartitionKind::y}, 4, somePlaces());
     int last = 0;
     for (double y = -1; y < 3; y += 0.01) {
         const int owner = regions.ownerOf({3, y, -5});
@@ -46,7 +46,7 @@ TEST(Regions, AreSlabsAlongAnAxis) {
 }
 
 TEST(Regions, OfAGridAreCutAxisByAxis) {
-    const Regions regions({.kind = Partition::Kind::grid, .parts = {3, 2, 2}}, 12, somePlaces());
+    const Regions regions({.kind = PartitionKind::grid, .parts = {3, 2, 2}}, 12, somePlaces());
     for (const int count : countsOf(regions, 12)) EXPECT_NEAR(count, 1000 / 12, 4);
     // The slabs along x are four ranks each.
     for (double x = 0; x < 4; x += 0.1) {
@@ -78,9 +78,9 @@ TEST(Regions, AreOfUseWithoutPlacesAndWithEqualOnes) {
 }
 
 TEST(Regions, RefuseGridsOfOtherNumbers) {
-    EXPECT_NO_THROW(requirePartition({.kind = Partition::Kind::grid, .parts = {2, 3, 1}}, 6));
-    EXPECT_THROW(requirePartition({.kind = Partition::Kind::grid, .parts = {2, 3, 1}}, 5), InputError);
-    EXPECT_THROW(requirePartition({.kind = Partition::Kind::grid, .parts = {-2, -3, 1}}, 6), InputError);
+    EXPECT_NO_THROW(requirePartition({.kind = PartitionKind::grid, .parts = {2, 3, 1}}, 6));
+    EXPECT_THROW(requirePartition({.kind = PartitionKind::grid, .parts = {2, 3, 1}}, 5), InputError);
+    EXPECT_THROW(requirePartition({.kind = PartitionKind::grid, .parts = {-2, -3, 1}}, 6), InputError);
 }
 
 }  // namespace
