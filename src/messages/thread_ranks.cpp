@@ -1,6 +1,7 @@
 /// @file Ranks that are threads of one program.
 #include <fmt/core.h>
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -30,7 +31,7 @@ struct Mailbox {
     std::mutex mutex;
     std::condition_variable arrived;
     std::vector<std::deque<Letter>> from;  ///< [ranks] in the order of sending
-    int lost = -1;                         ///< rank that gave up; −1 = none
+    bool lost = false;                     ///< a rank gave up
 };
 
 /// What the ranks of one run share.
@@ -40,6 +41,7 @@ struct Post {
     }
     std::vector<Mailbox> boxes;
     MessageDelay delay;
+    std::atomic<int> first_lost = -1;  ///< rank that gave up before the others; −1 = none
 };
 
 class ThreadRanks final : public Ranks {
@@ -47,9 +49,11 @@ class ThreadRanks final : public Ranks {
     ThreadRanks(int rank, Post& post) : Ranks(rank, static_cast<int>(post.boxes.size())), post_(post) {}
 
     void abandon(int) noexcept override {
+        int none = -1;
+        post_.first_lost.compare_exchange_strong(none, rank());
         for (Mailbox& box : post_.boxes) {
             const std::lock_guard lock(box.mutex);
-            if (box.lost < 0) box.lost = rank();
+            box.lost = true;
             box.arrived.notify_all();
         }
     }
@@ -73,10 +77,12 @@ class ThreadRanks final : public Ranks {
         }
     }
 
-    static std::vector<std::byte> take(Mailbox& box, std::deque<Letter>& letters) {
+    std::vector<std::byte> take(Mailbox& box, std::deque<Letter>& letters) const {
         std::unique_lock lock(box.mutex);
-        box.arrived.wait(lock, [&] { return !letters.empty() || box.lost >= 0; });
-        if (letters.empty()) throw RankLostError(fmt::format("rank {} ended before the others", box.lost));
+        box.arrived.wait(lock, [&] { return !letters.empty() || box.lost; });
+        if (letters.empty()) {
+            throw RankLostError(fmt::format("rank {} ended before the others", post_.first_lost.load()));
+        }
         Letter letter = std::move(letters.front());
         letters.pop_front();
         lock.unlock();

@@ -82,7 +82,6 @@ TEST(Ranks, WaitForMessagesThatAreLateOnPurpose) {
     runRanks(2,
              [](Ranks& ranks) {
                  for (int round = 0; round < 5; ++round) gatherAll(ranks, round);
-                 EXPECT_GE(ranks.traffic().waiting, 5 * 0.002);
              },
              {.per_message = 0.002});
     EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(10));
