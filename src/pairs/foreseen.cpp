@@ -59,12 +59,15 @@ void lookAhead(const BodyStorage& bodies, const DetectionRange& range, BodyIndex
     ahead.way.upper += way.cwiseMax(0);
 }
 
+bool movesFar(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, const Vec3& v, const Vec3& w) {
+    const double least = least_stroke * range.overlapOf(bodies.r_min[i], bodies.r_min[i]);
+    return range.foresight.time * (v.norm() + w.norm() * bodies.r_max[i]) > least;
+}
+
 bool isStruck(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, const BodyAhead& ahead) {
     if (bodies.kind[i] != BodyKind::dynamic || bodies.asleep[i] != 0) return false;
-    const double r_max = bodies.r_max[i];
-    const double least = least_stroke * range.overlapOf(bodies.r_min[i], bodies.r_min[i]) / range.foresight.time;
-    const double off = (bodies.v[i] - ahead.v).norm() + (bodies.w[i] - ahead.w).norm() * r_max;
-    return off > least && bodies.v[i].norm() + bodies.w[i].norm() * r_max > least;
+    return movesFar(bodies, range, i, bodies.v[i] - ahead.v, bodies.w[i] - ahead.w) &&
+           movesFar(bodies, range, i, bodies.v[i], bodies.w[i]);
 }
 
 bool PairAhead::wouldMeet() const {

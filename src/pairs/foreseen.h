@@ -55,6 +55,10 @@ void lookAhead(const BodyStorage& bodies, const DetectionRange& range, BodyIndex
 /// foreseen that others may be in the way there. @param ahead what was foreseen
 bool isStruck(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, const BodyAhead& ahead);
 
+/// Whether a body may get far into others in a step. @param v, w its velocities, or by how much they are others than
+/// foreseen [m/s, rad/s; W]
+bool movesFar(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, const Vec3& v, const Vec3& w);
+
 /// Which contacts of one pair a detection reports.
 class PairAhead {
   public:

@@ -111,6 +111,18 @@ void resolveFollowed(WorldState& world, BodyState& bodies) {
     }
 }
 
+/// Looks ahead for struck bodies and resolves their impacts until there is none, or often enough.
+/// @return whether contacts were added
+bool followStruck(WorldState& world, BodyState& bodies, const PairsInput& pairs) {
+    StepData& data = world.data;
+    for (int n = 0; n < most_follows; ++n) {
+        data.pairs.followStruck(pairs, data.fastest, data.contacts, data.added);
+        if (data.added.empty()) return n > 0;
+        resolveFollowed(world, bodies);
+    }
+    return true;
+}
+
 }  // namespace
 
 void batchContacts(WorldState& world) {
@@ -124,18 +136,23 @@ void batchContacts(WorldState& world) {
 }
 
 void resolveContacts(WorldState& world, BodyState& bodies, const PairsInput& pairs) {
+    world.data.resolution_counts = {};
+    resolveChosen(world, bodies, world.data.views);
+    if (pairs.range.foresight.time > 0 && followStruck(world, bodies, pairs)) batchContacts(world);
+}
+
+void resolveLaunched(WorldState& world, BodyState& bodies, const PairsInput& pairs) {
     StepData& data = world.data;
     data.resolution_counts = {};
-    resolveChosen(world, bodies, data.views);
-    if (!(pairs.range.foresight.time > 0)) return;
-    bool followed = false;
-    for (int n = 0; n < most_follows; ++n) {
-        data.pairs.followStruck(pairs, data.fastest, data.contacts, data.added);
-        if (data.added.empty()) break;
-        resolveFollowed(world, bodies);
-        followed = true;
+    data.added.clear();
+    for (std::uint32_t i = 0; i < data.contacts.size(); ++i) {
+        const Contact& contact = data.contacts[i];
+        const double closing = -normalVelocity(contact, bodies) - contact.allowed_closing;
+        if (closing * bodies.time_step > contact.allowed_overlap) data.added.push_back(i);
     }
-    if (followed) batchContacts(world);
+    if (data.added.empty()) return;
+    resolveFollowed(world, bodies);
+    followStruck(world, bodies, pairs);
 }
 
 }  // namespace cairn

@@ -13,4 +13,8 @@ void batchContacts(WorldState& world);
 /// @param bodies as for the resolution @param pairs as for the detection
 void resolveContacts(WorldState& world, BodyState& bodies, const PairsInput& pairs);
 
+/// Resolves the impacts that bodies would make with the velocities that users gave them, which no resolution granted:
+/// before they fly on with these for a step. @pre the contacts are those of the places and velocities of now
+void resolveLaunched(WorldState& world, BodyState& bodies, const PairsInput& pairs);
+
 }  // namespace cairn

@@ -29,6 +29,7 @@ struct RollbackData {
     std::optional<GravityLaw> gravity_law;
     std::vector<DrivenBody> driven;
     std::optional<FrameMotion> frame;
+    bool launched = false;
     std::int64_t steps = 0, steps_at_start = 0;
     double time = 0, time_at_start = 0;
     std::vector<std::uint32_t> contact_generation;  ///< StepData::generation

@@ -87,6 +87,7 @@ void worldFields(Stream& stream, World& world) {
     field(stream, world.time);
     field(stream, world.steps_at_start);
     field(stream, world.time_at_start);
+    field(stream, world.launched);
 }
 
 template <class Stream, class Bodies>

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "activity/sleeping.h"
 #include "integration/damping.h"
@@ -78,9 +79,44 @@ double fastestAfterImpact(WorldState& world) {
     return 2 * *std::ranges::max_element(fastest);
 }
 
-void detect(WorldState& world) {
-    const DetectionRange range = rangeOf(world);
+/// Begins the detections of a step: what the last one left becomes what the next contacts begin with.
+void beginDetection(WorldState& world, const DetectionRange& range) {
+    if (range.foresight.time > 0) world.data.fastest = fastestAfterImpact(world);
+    settleShared(world, range);
+    world.data.pairs.beginStep(world.bodies, world.data.generation, world.executor);
+    beginContacts(world.data.contacts, warmStart(world), world.executor);
+}
+
+void detect(WorldState& world, const DetectionRange& range) {
     world.data.pairs.detect(pairsInput(world, range), world.data.contacts);
+}
+
+/// Velocities that users gave were granted by no resolution: impacts that they would make in this step are resolved
+/// before bodies fly on with them. @return whether the detections of the step have begun
+bool grantLaunched(WorldState& world) {
+    if (!std::exchange(world.launched, false)) return false;
+    DetectionRange range = rangeOf(world);
+    if (!(range.foresight.time > 0)) return false;
+    // Forces act later in the step.
+    range.foresight.fall.setZero();
+    const BodyStorage& b = world.bodies;
+    bool any = false;
+    for (BodyIndex i = 0; i < b.slots() && !any; ++i) {
+        any = b.kind[i] == BodyKind::dynamic && b.asleep[i] == 0 && movesFar(b, range, i, b.v[i], b.w[i]);
+    }
+    if (!any) return false;
+    beginDetection(world, range);
+    detect(world, range);
+    batchContacts(world);
+    BodyState bodies = world.bodies.state();
+    bodies.time_step = world.settings.timeStep();
+    resolveLaunched(world, bodies, pairsInput(world, range));
+    measureIfAsked(world, Measured::resolution);
+    for (Contact& contact : world.data.contacts) {
+        contact.impulse.setZero();
+        contact.angular_impulse.setZero();
+    }
+    return true;
 }
 
 void correctBatches(WorldState& world) {
@@ -234,7 +270,9 @@ void stepWorld(WorldState& world) {
         beginLaws(world);
     });
     measureIfAsked(world, Measured::laws);
+    bool launched = false;
     timed(world, Stage::positions, [&] {
+        launched = grantLaunched(world);
         if (world.settings.integration.exact_flight) notePositions(world.bodies, world.executor, world.data.before);
         const JointFlight::Motion motion{world.settings.integration, world.settings.sleep,
                                          world.gravity + world.global_acceleration, world.settings.timeStep(),
@@ -247,11 +285,12 @@ void stepWorld(WorldState& world) {
     measureIfAsked(world, Measured::positions);
     timed(world, Stage::detection, [&] {
         const DetectionRange range = rangeOf(world);
-        if (range.foresight.time > 0) world.data.fastest = fastestAfterImpact(world);
-        settleShared(world, range);
-        world.data.pairs.beginStep(world.bodies, world.data.generation, world.executor);
-        beginContacts(world.data.contacts, warmStart(world), world.executor);
-        detect(world);
+        if (launched) {
+            settleShared(world, range);
+        } else {
+            beginDetection(world, range);
+        }
+        detect(world, range);
         findSensed(world);
     });
     timed(world, Stage::batches, [&] { batchContacts(world); });

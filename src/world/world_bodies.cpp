@@ -158,6 +158,7 @@ BodyId World::addBody(const BodyDescription& d) {
     b.material[i] = static_cast<std::uint32_t>(d.material);
     b.name[i] = d.name;
     b.setShapePose(i, {d.pose.position, orientation});
+    w.launched = true;
     b.v[i] = d.linear_velocity;
     b.w[i] = d.angular_velocity;
     b.asleep[i] = d.asleep && !d.fixed ? 1 : 0;

@@ -151,6 +151,7 @@ struct WorldState {
 
     std::unique_ptr<SharedBodies> shared;  ///< with other ranks; null = the world is on one
 
+    bool launched = false;  ///< a user gave a body a velocity or a place since the last step
     std::int64_t steps = 0;
     double time = 0;                  ///< [s]
     std::int64_t steps_at_start = 0;  ///< step count when the present time step length began to hold

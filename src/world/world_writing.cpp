@@ -69,6 +69,7 @@ void World::setPoses(std::span<const BodyId> ids, std::span<const Pose> poses) {
         requireRotation(poses[k].orientation);
         requireNoLaw(*state_, ids[k].index);
     }
+    state_->launched = true;
     ++state_->places_version;
     const BodyState state = b.state();
     for (std::size_t k = 0; k < ids.size(); ++k) {
@@ -88,6 +89,7 @@ void World::setLinearVelocity(BodyId id, const Vec3& v) {
 void World::setLinearVelocities(std::span<const BodyId> ids, std::span<const Vec3> v) {
     requireWhole(*state_, "World::setLinearVelocities");
     BodyStorage& b = state_->bodies;
+    state_->launched = true;
     writeVectors(b, ids, v, written_velocity, [&](BodyIndex i, const Vec3& value) { b.v[i] = value; });
 }
 
@@ -99,6 +101,7 @@ void World::setAngularVelocity(BodyId id, const Vec3& w) {
 void World::setAngularVelocities(std::span<const BodyId> ids, std::span<const Vec3> w) {
     requireWhole(*state_, "World::setAngularVelocities");
     BodyStorage& b = state_->bodies;
+    state_->launched = true;
     writeVectors(b, ids, w, written_spin, [&](BodyIndex i, const Vec3& value) { b.w[i] = value; });
 }
 
@@ -178,6 +181,7 @@ void World::applyImpulse(BodyId id, const Vec3& impulse) {
 void World::applyImpulses(std::span<const BodyId> ids, std::span<const Vec3> impulses) {
     requireWhole(*state_, "World::applyImpulses");
     BodyStorage& b = state_->bodies;
+    state_->launched = true;
     writeVectors(b, ids, impulses, written_impulse,
                  [&](BodyIndex i, const Vec3& value) { b.v[i] += value * b.mass_inv[i]; });
 }
@@ -199,6 +203,7 @@ void World::applyAngularImpulse(BodyId id, const Vec3& impulse) {
 void World::applyAngularImpulses(std::span<const BodyId> ids, std::span<const Vec3> impulses) {
     requireWhole(*state_, "World::applyAngularImpulses");
     BodyStorage& b = state_->bodies;
+    state_->launched = true;
     writeVectors(b, ids, impulses, written_angular_impulse,
                  [&](BodyIndex i, const Vec3& value) { b.w[i] += b.inertiaInv_W[i] * value; });
 }

@@ -150,6 +150,25 @@ TEST(ForeseenContacts, AnImpactThatFollowsAnotherBounces) {
     EXPECT_NEAR(row.velocity(2).x(), 9, 1e-9);
 }
 
+TEST(ForeseenContacts, AVelocityThatAUserGivesStopsAtWhatIsNear) {
+    Scene scene;
+    scene.world.setGravity(Vec3::Zero());
+    scene.world.addBody(fixedAt(Box{Vec3(0.02, 2, 2)}, Vec3(5, 0, 0)));
+    const BodyId bullet = scene.world.addBody(at(Sphere{0.01}, Vec3(4, 0, 0), Vec3(400, 0, 0)));
+    scene.world.step();
+    EXPECT_NEAR(scene.world.pose(bullet).position.x(), 5 - 0.01 - 0.01, 1e-4);
+    scene.world.setPose(bullet, {Vec3(3, 0, 0), Quat::Identity()});
+    scene.world.step();
+    scene.world.setLinearVelocity(bullet, Vec3(300, 0, 0));
+    const std::vector<std::byte> saved = scene.world.save();
+    scene.world.step();
+    EXPECT_NEAR(scene.world.pose(bullet).position.x(), 5 - 0.01 - 0.01, 1e-4);
+    World restored{foreseeing()};
+    restored.load(saved);
+    restored.step();
+    EXPECT_EQ(restored.stateHash(), scene.world.stateHash());
+}
+
 /// A box that lands on an edge turns, and its other edge meets the floor in the same step.
 TEST(ForeseenContacts, TheSideThatAnImpactTurnsDownStopsAtTheFloor) {
     Scene scene;
