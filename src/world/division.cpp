@@ -89,12 +89,12 @@ void gatherReports(WorldState& world) {
 
 }  // namespace
 
-void settleShared(WorldState& world, const DetectionRange& range) {
+void settleShared(WorldState& world, const DetectionRange& range, bool flown) {
     if (world.shared == nullptr) return;
     if (world.shared->isWhole()) requireShareable(world);
     const std::vector<BodyPair> tied = tiedBodies(world);
     std::span<Vec3> begun;
-    if (world.settings.integration.exact_flight) begun = world.data.before.position;
+    if (flown && world.settings.integration.exact_flight) begun = world.data.before.position;
     StepData& data = world.data;
     const bool changed = world.shared->settle({world.bodies, data.pairs, data.contacts, world.joints, begun, tied,
                                                range, data.fastest, world.steps, world.executor});

@@ -80,9 +80,10 @@ double fastestAfterImpact(WorldState& world) {
 }
 
 /// Begins the detections of a step: what the last one left becomes what the next contacts begin with.
-void beginDetection(WorldState& world, const DetectionRange& range) {
+/// @param flown whether bodies have moved in this step
+void beginDetection(WorldState& world, const DetectionRange& range, bool flown) {
     if (range.foresight.time > 0) world.data.fastest = fastestAfterImpact(world);
-    settleShared(world, range);
+    settleShared(world, range, flown);
     world.data.pairs.beginStep(world.bodies, world.data.generation, world.executor);
     beginContacts(world.data.contacts, warmStart(world), world.executor);
 }
@@ -105,7 +106,7 @@ bool grantLaunched(WorldState& world) {
         any = b.kind[i] == BodyKind::dynamic && b.asleep[i] == 0 && movesFar(b, range, i, b.v[i], b.w[i]);
     }
     if (!any) return false;
-    beginDetection(world, range);
+    beginDetection(world, range, false);
     detect(world, range);
     batchContacts(world);
     BodyState bodies = world.bodies.state();
@@ -113,7 +114,8 @@ bool grantLaunched(WorldState& world) {
     resolveLaunched(world, bodies, pairsInput(world, range));
     measureIfAsked(world, Measured::resolution);
     for (Contact& contact : world.data.contacts) {
-        contact.impulse.setZero();
+        // The step's own contacts begin with what they had before.
+        contact.impulse = contact.last_impulse;
         contact.angular_impulse.setZero();
     }
     return true;
@@ -286,9 +288,10 @@ void stepWorld(WorldState& world) {
     timed(world, Stage::detection, [&] {
         const DetectionRange range = rangeOf(world);
         if (launched) {
-            settleShared(world, range);
+            settleShared(world, range, true);
+            beginContacts(world.data.contacts, warmStart(world), world.executor);
         } else {
-            beginDetection(world, range);
+            beginDetection(world, range, true);
         }
         detect(world, range);
         findSensed(world);
