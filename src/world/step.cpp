@@ -50,8 +50,7 @@ WarmStart warmStart(const WorldState& world) {
 DetectionRange rangeOf(const WorldState& world) {
     const Settings& s = world.settings;
     DetectionRange range{s.detection.contact_margin, s.correction.penetration_threshold, s.correction.allowed_overlap};
-    // Sweeps let bodies come just so close that they touch, rather than fly into or through each other. What a call
-    // moved or added is looked ahead for from its second step on.
+    // Sweeps let bodies come just so close that they touch, rather than fly into or through each other.
     const bool foresees = s.resolution.resolution == ResolutionKind::accelerated_sweeps &&
                           s.resolution.restitution_speed == RestitutionSpeed::closing;
     if (foresees) range.foresight = {s.timeStep(), s.timeStep() * (world.gravity + world.global_acceleration)};

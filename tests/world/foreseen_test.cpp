@@ -173,7 +173,7 @@ TEST(ForeseenContacts, AVelocityThatAUserGivesStopsAtWhatIsNear) {
 TEST(ForeseenContacts, TheSideThatAnImpactTurnsDownStopsAtTheFloor) {
     Scene scene;
     scene.world.addBody(fixedAt(HalfSpace{}, Vec3::Zero()));
-    const BodyId low = scene.world.addBody(fixedAt(Box{Vec3(1, 1, 0.2)}, Vec3(0, 0, 0.1)));
+    scene.world.addBody(fixedAt(Box{Vec3(1, 1, 0.2)}, Vec3(0, 0, 0.1)));
     BodyDescription plank = at(Box{Vec3(1, 0.2, 0.1)}, Vec3(0.95, 0, 0.62), Vec3(0, 0, -20));
     plank.pose.orientation = Quat(Eigen::AngleAxisd(0.1, Vec3::UnitY()));
     scene.world.addBody(plank);
@@ -181,7 +181,6 @@ TEST(ForeseenContacts, TheSideThatAnImpactTurnsDownStopsAtTheFloor) {
         scene.world.step();
         EXPECT_GT(scene.deepest(), -0.1 * 0.1) << i;
     }
-    EXPECT_TRUE(scene.world.contains(low));
 }
 
 TEST(ForeseenContacts, AWorldThatIsRestoredGoesOnBitByBit) {
