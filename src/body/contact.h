@@ -39,4 +39,18 @@ struct Contact {
     double climb = 0;   ///< what the way from touching to the present distance takes of it again [m²/s²]
 };
 
+/// Calls visit(member) for what of a contact outlasts a step: what World::contacts() shows and the next contacts
+/// inherit. Snapshots and other ranks get it in this order.
+template <class AnyContact, class Visit>
+void forLastingMembers(AnyContact& contact, const Visit& visit) {
+    visit(contact.a);
+    visit(contact.b);
+    visit(contact.point);
+    visit(contact.normal);
+    visit(contact.distance);
+    visit(contact.reference_impulse);
+    visit(contact.impulse);
+    visit(contact.angular_impulse);
+}
+
 }  // namespace cairn

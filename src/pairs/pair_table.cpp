@@ -16,14 +16,13 @@ namespace {
 constexpr std::size_t pair_grain = 256;
 
 /// Whether another contact of the pair is at the same place; the deeper of the two stays.
-bool mergeInto(std::span<FoundContact> others, const Vec3& point, const Vec3& normal, double distance, double size) {
+bool mergeInto(std::span<FoundContact> others, const FoundContact& found, double size) {
     for (FoundContact& other : others) {
-        const double apart = (other.point - point).squaredNorm() + squaredTurn(other.normal, normal, size);
-        if (apart > same_at_once * same_at_once * size * size) continue;
-        if (distance < other.distance) {
-            other.point = point;
-            other.normal = normal;
-            other.distance = distance;
+        if (!isSameAtOnce(other, found, size)) continue;
+        if (found.distance < other.distance) {
+            other.point = found.point;
+            other.normal = found.normal;
+            other.distance = found.distance;
         }
         return true;
     }
@@ -50,10 +49,10 @@ void collidePair(const BodyStorage& bodies, const BodyPair& pair, const Detectio
             const double apart = distance - margin;
             touches = touches || apart <= 0;
             if (apart > 0 && !ahead.closes(point, found.normal, apart)) continue;
-            const auto others = std::span(contacts).subspan(first, earlier);
-            if (mergeInto(others, point, found.normal, distance, size)) continue;
             const double closing = apart > 0 ? apart / range.foresight.time : 0;
-            appendTightly(contacts, {pair.a, pair.b, point, found.normal, distance, allowed_overlap, closing});
+            const FoundContact contact{pair.a, pair.b, point, found.normal, distance, allowed_overlap, closing};
+            if (mergeInto(std::span(contacts).subspan(first, earlier), contact, size)) continue;
+            appendTightly(contacts, contact);
         }
     };
     forEachManifold(bodies.shape[pair.a], bodies.shapePose(pair.a), bodies.shape[pair.b], bodies.shapePose(pair.b),
@@ -71,10 +70,7 @@ void findMissing(const BodyStorage& bodies, const BodyPair& pair, const Detectio
     collidePair(bodies, pair, range, ahead, manifold, contacts);
     const double size = std::min(bodies.r_max[pair.a], bodies.r_max[pair.b]);
     const auto isKnown = [&](const FoundContact& found) {
-        return std::ranges::any_of(known, [&](const Contact& c) {
-            const double apart = (c.point - found.point).squaredNorm() + squaredTurn(c.normal, found.normal, size);
-            return apart <= same_at_once * same_at_once * size * size;
-        });
+        return std::ranges::any_of(known, [&](const Contact& c) { return isSameAtOnce(c, found, size); });
     };
     contacts.erase(std::remove_if(contacts.begin() + static_cast<std::ptrdiff_t>(first), contacts.end(), isKnown),
                    contacts.end());

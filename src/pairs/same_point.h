@@ -21,4 +21,12 @@ inline double squaredTurn(const Vec3& normal, const Vec3& other, double size) {
     return turning * turning * size * size * (normal - other).squaredNorm();
 }
 
+/// Whether two points of a pair that are found at one moment are the same one.
+/// @param one, other with point [m, W] and normal @param size largest radius of the smaller body [m]
+template <class One, class Other>
+bool isSameAtOnce(const One& one, const Other& other, double size) {
+    const double apart = (one.point - other.point).squaredNorm() + squaredTurn(one.normal, other.normal, size);
+    return apart <= same_at_once * same_at_once * size * size;
+}
+
 }  // namespace cairn

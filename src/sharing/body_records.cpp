@@ -19,19 +19,6 @@ void forTakenFields(Bodies& bodies, const Visit& visit) {
     });
 }
 
-/// Calls visit(member) for what a snapshot keeps of a contact, too.
-template <class AnyContact, class Visit>
-void forTakenMembers(AnyContact& contact, const Visit& visit) {
-    visit(contact.a);
-    visit(contact.b);
-    visit(contact.point);
-    visit(contact.normal);
-    visit(contact.distance);
-    visit(contact.reference_impulse);
-    visit(contact.impulse);
-    visit(contact.angular_impulse);
-}
-
 /// Calls visit(member) for all that steps change of a joint.
 template <class AnyJoint, class Visit>
 void forChangingMembers(AnyJoint& joint, const Visit& visit) {
@@ -60,12 +47,12 @@ void unpackBody(Unpacker& in, BodyStorage& bodies, BodyIndex i) {
 }
 
 void packContact(std::vector<std::byte>& message, const Contact& contact) {
-    forTakenMembers(contact, [&](const auto& member) { pack(message, member); });
+    forLastingMembers(contact, [&](const auto& member) { pack(message, member); });
 }
 
 Contact unpackContact(Unpacker& in) {
     Contact contact;
-    forTakenMembers(contact, [&](auto& member) { member = in.get<std::remove_cvref_t<decltype(member)>>(); });
+    forLastingMembers(contact, [&](auto& member) { member = in.get<std::remove_cvref_t<decltype(member)>>(); });
     return contact;
 }
 

@@ -174,17 +174,9 @@ void jointFields(Stream& stream, AnyJoint& joint) {
     field(stream, joint.angular_impulse);
 }
 
-/// What World::contacts() shows and the next contacts inherit; the rest of a contact is of use within a step only.
 template <class Stream, class AnyContact>
 void contactFields(Stream& stream, AnyContact& contact) {
-    field(stream, contact.a);
-    field(stream, contact.b);
-    field(stream, contact.point);
-    field(stream, contact.normal);
-    field(stream, contact.distance);
-    field(stream, contact.reference_impulse);
-    field(stream, contact.impulse);
-    field(stream, contact.angular_impulse);
+    forLastingMembers(contact, [&](auto& member) { field(stream, member); });
 }
 
 template <class Stream, class AnyBatches>
