@@ -154,16 +154,18 @@ void SurfaceMeeting::addPointsOnFace(const SurfaceFace& face, std::span<const st
     }
 }
 
-/// Whether a point that is in the surface is less deep below another face that it is over, too. That is so behind an
-/// edge that stands out; at others, what is over one face is beside the other.
+/// Whether a point that is in the surface is less deep below another face that it is over, too, and that stands back
+/// behind this one, as behind an edge that stands out. Between faces that face each other what is round meets both.
 bool SurfaceMeeting::isShallowerElsewhere(const SurfaceFace& face, const ManifoldPoint& point) const {
     if (!(point.distance < 0)) return false;
     const Vec3 core = point.point + (0.5 * point.distance + convex_.rounding()) * face.normal;
     for (const auto& triangles : faces_) {
         const SurfaceFace other = turnedTo(surface_, surface_.face_of[triangles.front()], centre_);
-        const double distance = other.height(core) - convex_.rounding();
+        const double height = other.height(core);
+        const double distance = height - convex_.rounding();
         const bool shallower = distance < 0 && distance > point.distance + on_face_part * size_;
-        if (shallower && triangleAt(other, triangles, core)) return true;
+        if (!shallower || face.height(core - height * other.normal) >= 0) continue;
+        if (triangleAt(other, triangles, core)) return true;
     }
     return false;
 }
