@@ -4,6 +4,10 @@ import os
 import re
 from pathlib import Path
 
+from docutils import nodes
+from docutils.utils.math import latex2mathml
+from sphinx.errors import SphinxError
+
 BUILT = Path(os.environ["CAIRN_SITE"])
 
 project = "Cairn"
@@ -18,6 +22,11 @@ html_copy_source = False
 root_doc = "README"
 include_patterns = ["*.md", "docs/*.md", "docs/**/*.md", "reference/*.rst", "gallery/*.rst"]
 myst_heading_anchors = 4
+# Formulas become MathML, which browsers draw themselves.
+myst_enable_extensions = ["dollarmath"]
+html_math_renderer = "mathml"
+html_static_path = ["static"]
+html_css_files = ["site.css"]
 
 breathe_projects = {"cairn": str(BUILT / "doxygen" / "xml")}
 breathe_default_project = "cairn"
@@ -61,5 +70,16 @@ def leave_out_overloads(_app, _what, _name, _object, _options, lines):
     lines[:] = [line for line in lines if not OVERLOAD.match(line)]
 
 
+def add_formula(page, node, inline):
+    try:
+        page.body.append(latex2mathml.tex2mathml(node.astext().strip(), inline=inline))
+    except SyntaxError as error:
+        raise SphinxError(f"{node.source}: the formula '{node.astext()}' cannot be MathML ({error}); write it without "
+                          "that command") from error
+    raise nodes.SkipNode
+
+
 def setup(app):
+    app.add_html_math_renderer("mathml", (lambda page, node: add_formula(page, node, True), None),
+                               (lambda page, node: add_formula(page, node, False), None))
     app.connect("autodoc-process-docstring", leave_out_overloads)

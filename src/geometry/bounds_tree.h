@@ -46,6 +46,10 @@ class BoundsTree {
     /// hold nothing wanted. @param meets (bounds) → bool, may depend on what was visited
     template <class Meets, class Visit>
     void forEachWhere(const Meets& meets, const Visit& visit) const;
+    /// Calls visit(item, other item) for every two items of this tree and another whose bounds, and all those around
+    /// them, overlap. @param place bounds of this tree → bounds in the frame of the other one that enclose them
+    template <class Place, class Visit>
+    void forEachPair(const BoundsTree& other, const Place& place, const Visit& visit) const;
     /// Calls visit(item) for every item whose bounds a ray meets within its reach, roughly from near to far.
     /// @param reach [m]; may be lowered by visit: bounds beyond it are left out, those at it are not
     template <class Visit>
@@ -72,6 +76,13 @@ class BoundsTree {
     struct Waiting {
         std::uint32_t child;
         double entry;
+    };
+    /// Two children of trees, with their bounds in the frame of the second.
+    struct WaitingPair {
+        std::uint32_t first, second;
+        Bounds around_first, around_second;
+
+        bool dividesFirst() const;
     };
 
     std::uint32_t buildRange(const Range& range, std::span<const Bounds> bounds);
@@ -120,6 +131,40 @@ void BoundsTree::forEachWhere(const Meets& meets, const Visit& visit) const {
             } else {
                 waiting[count++] = child;
             }
+        }
+    }
+}
+
+/// The larger one is divided, as long as it is no item.
+inline bool BoundsTree::WaitingPair::dividesFirst() const {
+    if ((first & leaf) != 0) return false;
+    const auto sizeOf = [](const Bounds& bounds) { return (bounds.upper - bounds.lower).sum(); };
+    return (second & leaf) != 0 || sizeOf(around_first) >= sizeOf(around_second);
+}
+
+template <class Place, class Visit>
+void BoundsTree::forEachPair(const BoundsTree& other, const Place& place, const Visit& visit) const {
+    if (nodes_.empty() || other.nodes_.empty()) return;
+    const Vec3 endless = Vec3::Constant(std::numeric_limits<double>::infinity());
+    const Bounds everything{-endless, endless};
+    std::array<WaitingPair, 2 * most_waiting> waiting;
+    std::size_t count = 0;
+    waiting[count++] = {0, 0, everything, everything};
+    while (count > 0) {
+        const WaitingPair pair = waiting[--count];
+        if ((pair.first & pair.second & leaf) != 0) {
+            visit(pair.first & ~leaf, pair.second & ~leaf);
+            continue;
+        }
+        const bool first = pair.dividesFirst();
+        const Node& node = first ? nodes_[pair.first] : other.nodes_[pair.second];
+        for (std::size_t side = 0; side < 2; ++side) {
+            const std::uint32_t child = node.child[side];
+            if (child == none) continue;
+            WaitingPair below = pair;
+            (first ? below.first : below.second) = child;
+            (first ? below.around_first : below.around_second) = first ? place(node.bounds[side]) : node.bounds[side];
+            if (below.around_first.overlaps(below.around_second)) waiting[count++] = below;
         }
     }
 }

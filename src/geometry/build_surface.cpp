@@ -246,10 +246,7 @@ void findExtent(SurfaceData& surface) {
     }
     std::vector<Bounds> bounds;
     bounds.reserve(surface.triangles.size());
-    for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
-        const auto [a, b, c] = surface.corners(t);
-        bounds.push_back({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
-    }
+    for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) bounds.push_back(surface.boundsOf(t));
     surface.tree.build(bounds);
 }
 

@@ -40,6 +40,10 @@ struct SurfaceData {
     std::array<Vec3, 3> corners(std::uint32_t triangle) const {
         return {corner(triangle, 0), corner(triangle, 1), corner(triangle, 2)};
     }
+    Bounds boundsOf(std::uint32_t triangle) const {
+        const auto [a, b, c] = corners(triangle);
+        return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+    }
     const SurfaceFace& face(std::uint32_t triangle) const { return faces[face_of[triangle]]; }
     std::span<const std::uint32_t> fan(std::uint32_t vertex) const {
         return std::span(fans).subspan(fan_begin[vertex], fan_begin[vertex + 1] - fan_begin[vertex]);

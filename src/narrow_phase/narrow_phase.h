@@ -59,15 +59,31 @@ struct SurfacePair {
 /// @param use is called with each manifold; its normal points to the shape
 void collideSurface(const SurfacePair& pair, double margin, FunctionRef<void(Manifold&)> use);
 
+/// As collideSurface() for each part of a compound that has a tree, in the order of the parts, of which only those near
+/// triangles are looked at.
+/// @param pose of the compound's frame in W @param surface_pose likewise
+void collideParts(const Compound& compound, const Pose& pose, const SurfaceData& surface, const Pose& surface_pose,
+                  double margin, FunctionRef<void(Manifold&)> use);
+
 /// As collide(), for any two shapes: finds the contacts of all parts of compounds and with surfaces. Two surfaces, and
 /// surfaces and half-spaces, never touch.
 /// @param manifold for use in between @param use is called with each manifold that is not empty
 template <class Use>
 void forEachManifold(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b, const Pose& pose_b, double margin,
                      Manifold& manifold, const Use& use) {
+    const SurfaceData* surface_a = surfaceOf(shape_a);
+    const SurfaceData* surface_b = surfaceOf(shape_b);
+    const auto useTurned = [&](Manifold& found) {
+        found.normal = -found.normal;
+        use(std::as_const(found));
+    };
+    const auto useAsFound = [&](Manifold& found) { use(std::as_const(found)); };
     if (std::holds_alternative<Compound>(shape_a)) {
-        const Bounds other = boundsOf(shape_b, pose_b);
         const Compound& compound = *std::get_if<Compound>(&shape_a);
+        if (surface_b != nullptr && compound.tree) {
+            return collideParts(compound, pose_a, *surface_b, pose_b, margin, useAsFound);
+        }
+        const Bounds other = boundsOf(shape_b, pose_b);
         const NearParts near(compound, pose_a, shape_b, pose_b, other, margin);
         for (std::size_t i = 0; i < near.count(); ++i) {
             const CompoundPart& part = compound.parts[near[i]];
@@ -76,8 +92,11 @@ void forEachManifold(const Shape& shape_a, const Pose& pose_a, const Shape& shap
             forEachManifold(part.shape, pose, shape_b, pose_b, margin, manifold, use);
         }
     } else if (std::holds_alternative<Compound>(shape_b)) {
-        const Bounds other = boundsOf(shape_a, pose_a).grown(margin);
         const Compound& compound = *std::get_if<Compound>(&shape_b);
+        if (surface_a != nullptr && compound.tree) {
+            return collideParts(compound, pose_b, *surface_a, pose_a, margin, useTurned);
+        }
+        const Bounds other = boundsOf(shape_a, pose_a).grown(margin);
         const NearParts near(compound, pose_b, shape_a, pose_a, other, margin);
         for (std::size_t i = 0; i < near.count(); ++i) {
             const CompoundPart& part = compound.parts[near[i]];
@@ -85,16 +104,10 @@ void forEachManifold(const Shape& shape_a, const Pose& pose_a, const Shape& shap
             if (!boundsOf(part.shape, pose).overlaps(other)) continue;
             forEachManifold(shape_a, pose_a, part.shape, pose, margin, manifold, use);
         }
-    } else if (const SurfaceData* surface = surfaceOf(shape_b); surface != nullptr) {
-        if (!isSolid(shape_a)) return;
-        collideSurface({shape_a, pose_a, *surface, pose_b}, margin,
-                       [&](Manifold& found) { use(std::as_const(found)); });
-    } else if (surface = surfaceOf(shape_a); surface != nullptr) {
-        if (!isSolid(shape_b)) return;
-        collideSurface({shape_b, pose_b, *surface, pose_a}, margin, [&](Manifold& found) {
-            found.normal = -found.normal;
-            use(std::as_const(found));
-        });
+    } else if (surface_b != nullptr) {
+        if (isSolid(shape_a)) collideSurface({shape_a, pose_a, *surface_b, pose_b}, margin, useAsFound);
+    } else if (surface_a != nullptr) {
+        if (isSolid(shape_b)) collideSurface({shape_b, pose_b, *surface_a, pose_a}, margin, useTurned);
     } else {
         collide(shape_a, pose_a, shape_b, pose_b, margin, manifold);
         if (manifold.size > 0) use(manifold);

@@ -11,6 +11,7 @@
 
 #include "geometry/surface_data.h"
 #include "narrow_phase/convex_contact.h"
+#include "narrow_phase/parts_near_triangles.h"
 #include "narrow_phase/surface_points.h"
 
 namespace cairn {
@@ -60,8 +61,11 @@ class SurfaceMeeting {
           near_(boundsOf(shape, pose).grown(margin)) {}
 
     std::vector<SurfaceManifold>& find();
+    /// The same. @param triangles that the shape may be near, all of them
+    std::vector<SurfaceManifold>& findAmong(std::span<const std::uint32_t> triangles);
 
   private:
+    void meetTriangles();
     void meetFace(std::span<const std::uint32_t> triangles);
     void addPointsOnFace(const SurfaceFace& face, std::span<const std::uint32_t> triangles);
     void meetTriangle(const SurfaceFace& face, std::uint32_t triangle);
@@ -98,6 +102,19 @@ class SurfaceMeeting {
 
 std::vector<SurfaceManifold>& SurfaceMeeting::find() {
     surface_.tree.forEachOverlapping(near_, [&](std::uint32_t triangle) { triangles_.push_back(triangle); });
+    meetTriangles();
+    return found_;
+}
+
+std::vector<SurfaceManifold>& SurfaceMeeting::findAmong(std::span<const std::uint32_t> triangles) {
+    for (const std::uint32_t triangle : triangles) {
+        if (near_.overlaps(surface_.boundsOf(triangle))) triangles_.push_back(triangle);
+    }
+    meetTriangles();
+    return found_;
+}
+
+void SurfaceMeeting::meetTriangles() {
     std::ranges::sort(triangles_, [&](std::uint32_t a, std::uint32_t b) {
         return std::pair(surface_.face_of[a], a) < std::pair(surface_.face_of[b], b);
     });
@@ -122,7 +139,6 @@ std::vector<SurfaceManifold>& SurfaceMeeting::find() {
     const auto touches = [](const SurfaceManifold& m) { return m.deepest() <= 0; };
     if (std::ranges::none_of(found_, touches)) meetDeepest();
     dropBehind();
-    return found_;
 }
 
 void SurfaceMeeting::meetFace(std::span<const std::uint32_t> triangles) {
@@ -154,16 +170,18 @@ void SurfaceMeeting::addPointsOnFace(const SurfaceFace& face, std::span<const st
     }
 }
 
-/// Whether a point that is in the surface is less deep below another face that it is over, too. That is so behind an
-/// edge that stands out; at others, what is over one face is beside the other.
+/// Whether a point that is in the surface is less deep below another face that it is over, too, and that stands back
+/// behind this one, as behind an edge that stands out. Between faces that face each other what is round meets both.
 bool SurfaceMeeting::isShallowerElsewhere(const SurfaceFace& face, const ManifoldPoint& point) const {
     if (!(point.distance < 0)) return false;
     const Vec3 core = point.point + (0.5 * point.distance + convex_.rounding()) * face.normal;
     for (const auto& triangles : faces_) {
         const SurfaceFace other = turnedTo(surface_, surface_.face_of[triangles.front()], centre_);
-        const double distance = other.height(core) - convex_.rounding();
+        const double height = other.height(core);
+        const double distance = height - convex_.rounding();
         const bool shallower = distance < 0 && distance > point.distance + on_face_part * size_;
-        if (shallower && triangleAt(other, triangles, core)) return true;
+        if (!shallower || face.height(core - height * other.normal) >= 0) continue;
+        if (triangleAt(other, triangles, core)) return true;
     }
     return false;
 }
@@ -291,8 +309,7 @@ void SurfaceMeeting::meetDeepest() {
     bool any = false;
     const Bounds touching = near_.grown(-margin_);
     for (const std::uint32_t triangle : triangles_) {
-        const auto [a, b, c] = surface_.corners(triangle);
-        if (!touching.overlaps({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)})) continue;
+        if (!touching.overlaps(surface_.boundsOf(triangle))) continue;
         const SurfaceFace face = turnedTo(surface_, surface_.face_of[triangle], centre_);
         const Manifold contact = contactWith(face, triangle);
         for (std::size_t i = 0; i < contact.size; ++i) {
@@ -360,18 +377,42 @@ void SurfaceMeeting::dropBehind() {
     std::erase_if(found_, [&](const SurfaceManifold& m) { return m.behind && (front || m.deepest() < shallowest); });
 }
 
+/// Hands on what was found, in W.
+void useFound(std::span<SurfaceManifold> all, const Pose& surface_pose, FunctionRef<void(Manifold&)> use) {
+    for (SurfaceManifold& found : all) {
+        Manifold& manifold = found.manifold;
+        manifold.normal = surface_pose.orientation * manifold.normal;
+        for (std::size_t i = 0; i < manifold.size; ++i) {
+            manifold.points[i].point = surface_pose.toOuter(manifold.points[i].point);
+        }
+        use(manifold);
+    }
+}
+
 }  // namespace
 
 void collideSurface(const SurfacePair& pair, double margin, FunctionRef<void(Manifold&)> use) {
     const Pose pose = pair.surface_pose.inverse().toOuter(pair.pose);
     SurfaceMeeting meeting(pair.shape, pose, pair.surface, margin);
-    for (SurfaceManifold& found : meeting.find()) {
-        Manifold& manifold = found.manifold;
-        manifold.normal = pair.surface_pose.orientation * manifold.normal;
-        for (std::size_t i = 0; i < manifold.size; ++i) {
-            manifold.points[i].point = pair.surface_pose.toOuter(manifold.points[i].point);
+    useFound(meeting.find(), pair.surface_pose, use);
+}
+
+void collideParts(const Compound& compound, const Pose& pose, const SurfaceData& surface, const Pose& surface_pose,
+                  double margin, FunctionRef<void(Manifold&)> use) {
+    const Pose to_surface = surface_pose.inverse();
+    const Vec3 farthest = pose.position.cwiseAbs().cwiseMax(surface_pose.position.cwiseAbs());
+    const double rounding = 1e-12 * farthest.maxCoeff();
+    const std::vector<PartNearTriangle> near =
+        partsNearTriangles(compound, to_surface.toOuter(pose), surface, margin + rounding);
+    std::vector<std::uint32_t> triangles;
+    for (std::size_t i = 0; i < near.size();) {
+        const CompoundPart& part = compound.parts[near[i].part];
+        triangles.clear();
+        for (const std::uint32_t index = near[i].part; i < near.size() && near[i].part == index; ++i) {
+            triangles.push_back(near[i].triangle);
         }
-        use(manifold);
+        SurfaceMeeting meeting(part.shape, to_surface.toOuter(pose.toOuter(part.pose)), surface, margin);
+        useFound(meeting.findAmong(triangles), surface_pose, use);
     }
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "geometry/surface_data.h"
 #include "math/rotation.h"
 #include "narrow_phase/approach.h"
+#include "narrow_phase/convex.h"
 
 namespace cairn {
 
@@ -16,6 +18,10 @@ constexpr double least_way = 0.01;
 /// A body that ends within this multiple of the overlap that it is allowed from where it was foreseen is left alone:
 /// what it may overlap there is for the correction.
 constexpr double least_stroke = 3;
+
+/// What touches a surface has its middle before it by about its inner radius: with a way of less than this part of
+/// that, it is not through the surface in the end.
+constexpr double crossing_part = 0.5;
 
 MovingShape movingShape(const BodyStorage& bodies, BodyIndex i, const BodyAhead* ahead) {
     MovingShape shape{bodies.shape[i], bodies.shapePose(i), bodies.position[i]};
@@ -120,9 +126,6 @@ bool PairAhead::closes(const Vec3& point, const Vec3& normal, double distance) c
 void PairAhead::forEachAtEnd(Manifold& manifold, FunctionRef<void(const Vec3&, const Vec3&, double)> use) const {
     const double depth = range_.overlapOf(bodies_.r_min[pair_.a], bodies_.r_min[pair_.b]);
     const double time = range_.foresight.time;
-    const auto end = [&](BodyIndex i, const BodyAhead& ahead) {
-        return ahead.reach > 0 ? poseAfter(bodies_, i, ahead, time) : bodies_.shapePose(i);
-    };
     const auto back = [&](BodyIndex i, const BodyAhead& ahead, const Vec3& point) -> Vec3 {
         if (!(ahead.reach > 0)) return point;
         const Vec3 lever = point - (bodies_.position[i] + bodies_.v[i] * time);
@@ -141,8 +144,80 @@ void PairAhead::forEachAtEnd(Manifold& manifold, FunctionRef<void(const Vec3&, c
             if (closing < 0) use(point, found.normal, distance - closing * time);
         }
     };
-    forEachManifold(bodies_.shape[pair_.a], end(pair_.a, a_), bodies_.shape[pair_.b], end(pair_.b, b_), 0, manifold,
+    forEachManifold(bodies_.shape[pair_.a], endOf(pair_.a, a_), bodies_.shape[pair_.b], endOf(pair_.b, b_), 0, manifold,
                     look);
+}
+
+Pose PairAhead::endOf(BodyIndex i, const BodyAhead& ahead) const {
+    return ahead.reach > 0 ? poseAfter(bodies_, i, ahead, range_.foresight.time) : bodies_.shapePose(i);
+}
+
+/// With what gravity adds.
+Pose PairAhead::fallenEndOf(BodyIndex i, const BodyAhead& ahead) const {
+    Pose end = endOf(i, ahead);
+    end.position += (ahead.v - bodies_.v[i]) * range_.foresight.time;
+    return end;
+}
+
+bool PairAhead::mayCross() const {
+    if (!isAny()) return false;
+    const bool surface_a = surfaceOf(bodies_.shape[pair_.a]) != nullptr;
+    const bool surface_b = surfaceOf(bodies_.shape[pair_.b]) != nullptr;
+    if (surface_a == surface_b) return false;
+    return way() > crossing_part * bodies_.r_min[surface_a ? pair_.b : pair_.a];
+}
+
+/// Where the middle of a part passes through the surface.
+struct PairAhead::Crossing {
+    Vec3 point;       ///< that meets the surface, where the part is now [m, W]
+    Vec3 normal;      ///< unit, to the part [W]
+    double distance;  ///< of the ball at the end of the step [m]
+};
+
+PairAhead::OverSurface PairAhead::overSurface() const {
+    if (surfaceOf(bodies_.shape[pair_.a]) != nullptr) return {pair_.b, pair_.a, b_, a_};
+    return {pair_.a, pair_.b, a_, b_};
+}
+
+/// @param now, end of the part [W]
+std::optional<PairAhead::Crossing> PairAhead::crossingOf(const OverSurface& pair, const Shape& part, const Pose& now,
+                                                         const Pose& end) const {
+    const Pose ground_now = bodies_.shapePose(pair.ground);
+    const Vec3 middle = convexOf(part, now, Vec3::Zero()).centre();
+    const Vec3 from = ground_now.toInner(middle);
+    const Vec3 to = fallenEndOf(pair.ground, pair.ground_ahead).toInner(convexOf(part, end, Vec3::Zero()).centre());
+    const double way = (to - from).norm();
+    const double thick = smallestRadius(part);
+    if (!(way > crossing_part * thick)) return {};
+    const LocalRay ray{from, (to - from) / way};
+    const std::optional<LocalHit> hit = castRay(*surfaceOf(bodies_.shape[pair.ground]), ray, way);
+    if (!hit) return {};
+    const Vec3 normal = ground_now.orientation * hit->normal;
+    const double behind = (way - hit->distance) * hit->normal.dot(ray.direction);
+    return Crossing{middle - thick * normal, normal, behind - thick};
+}
+
+void PairAhead::forEachCrossing(FunctionRef<void(const Vec3&, const Vec3&, double)> use) const {
+    const OverSurface pair = overSurface();
+    const double to_a = pair.solid == pair_.a ? 1 : -1;
+    const auto look = [&](const Shape& part, const Pose& now, const Pose& end) {
+        const std::optional<Crossing> found = crossingOf(pair, part, now, end);
+        if (!found) return;
+        const auto velocity = [&](BodyIndex i, const BodyAhead& ahead) -> Vec3 {
+            return ahead.v + bodies_.w[i].cross(found->point - bodies_.position[i]);
+        };
+        const Vec3 relative = velocity(pair.solid, pair.solid_ahead) - velocity(pair.ground, pair.ground_ahead);
+        const double closing = found->normal.dot(relative);
+        if (!(closing < 0)) return;
+        use(found->point, to_a * found->normal, found->distance - closing * range_.foresight.time);
+    };
+    const Pose now = bodies_.shapePose(pair.solid);
+    const Pose end = fallenEndOf(pair.solid, pair.solid_ahead);
+    const auto* compound = std::get_if<Compound>(&bodies_.shape[pair.solid]);
+    if (compound == nullptr) return look(bodies_.shape[pair.solid], now, end);
+    for (const CompoundPart& part : compound->parts) {
+        look(part.shape, now.toOuter(part.pose), end.toOuter(part.pose));
+    }
 }
 
 }  // namespace cairn

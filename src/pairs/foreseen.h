@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include "body/body_storage.h"
@@ -84,9 +85,29 @@ class PairAhead {
     /// ends, if nothing stops them: the place now, the direction then, and the distance from which the velocities
     /// that they have now lead there [m, W].
     void forEachAtEnd(Manifold& manifold, FunctionRef<void(const Vec3&, const Vec3&, double)> use) const;
+    /// Whether one is a surface, and they move so far past each other that a solid could be through it in the end.
+    bool mayCross() const;
+    /// Calls use(point, normal, distance), as above, for where the middle of a solid, or of a part of it, would pass
+    /// through a surface within the step: the contact of a ball as thick as the part with the plane of the triangle
+    /// that is in its way. On rough ground what is nearest now does not stop a body that goes elsewhere. @pre
+    /// mayCross()
+    void forEachCrossing(FunctionRef<void(const Vec3&, const Vec3&, double)> use) const;
 
   private:
+    struct Crossing;
+    /// A solid and a surface, each with how it goes on.
+    struct OverSurface {
+        BodyIndex solid, ground;
+        const BodyAhead& solid_ahead;
+        const BodyAhead& ground_ahead;
+    };
+
     bool meetsWith(const BodyAhead* a, const BodyAhead* b, double depth) const;
+    Pose endOf(BodyIndex i, const BodyAhead& ahead) const;
+    Pose fallenEndOf(BodyIndex i, const BodyAhead& ahead) const;
+    OverSurface overSurface() const;
+    std::optional<Crossing> crossingOf(const OverSurface& pair, const Shape& part, const Pose& now,
+                                       const Pose& end) const;
 
     const BodyStorage& bodies_;
     const DetectionRange& range_;

@@ -29,8 +29,8 @@ bool mergeInto(std::span<FoundContact> others, const FoundContact& found, double
     return false;
 }
 
-/// Appends the contacts of one pair.
-void collidePair(const BodyStorage& bodies, const BodyPair& pair, const DetectionRange& range, const PairAhead& ahead,
+/// Appends the contacts that two bodies have where they are, and those that they would have on their ways.
+void collideNear(const BodyStorage& bodies, const BodyPair& pair, const DetectionRange& range, const PairAhead& ahead,
                  Manifold& manifold, std::vector<FoundContact>& contacts) {
     const bool near = !ahead.isAny() || ahead.mayTouchNow();
     const bool would_meet = !near && ahead.wouldMeet();
@@ -59,6 +59,18 @@ void collidePair(const BodyStorage& bodies, const BodyPair& pair, const Detectio
                     margin + ahead.way(), manifold, add);
     const bool foreseen = !touches && contacts.size() > first;
     if (foreseen && !would_meet && !ahead.wouldMeet()) contacts.resize(first);
+}
+
+/// Appends the contacts of one pair.
+void collidePair(const BodyStorage& bodies, const BodyPair& pair, const DetectionRange& range, const PairAhead& ahead,
+                 Manifold& manifold, std::vector<FoundContact>& contacts) {
+    collideNear(bodies, pair, range, ahead, manifold, contacts);
+    if (!ahead.mayCross()) return;
+    const double allowed_overlap = range.overlapOf(bodies.r_min[pair.a], bodies.r_min[pair.b]);
+    ahead.forEachCrossing([&](const Vec3& point, const Vec3& normal, double distance) {
+        const double gap = std::max(0.0, distance);
+        appendTightly(contacts, {pair.a, pair.b, point, normal, gap, allowed_overlap, gap / range.foresight.time});
+    });
 }
 
 /// Appends the contacts that keep the bodies of one pair apart and that it does not have yet: those that would be found

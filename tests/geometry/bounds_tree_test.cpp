@@ -78,6 +78,33 @@ TEST(BoundsTree, FindsWhatAskingAllFinds) {
     }
 }
 
+TEST(BoundsTree, FindsThePairsOfTwoTreesThatAskingAllFinds) {
+    Random random(8);
+    const Vec3 moved(1, -2, 0.5);
+    for (const auto& [count, others] : {std::pair(1, 1), std::pair(1, 90), std::pair(70, 1), std::pair(120, 300)}) {
+        const auto boxes = randomBoxes(random, static_cast<std::size_t>(count), 3);
+        const auto other_boxes = randomBoxes(random, static_cast<std::size_t>(others), 1);
+        BoundsTree tree;
+        BoundsTree other;
+        tree.build(boxes);
+        other.build(other_boxes);
+        const auto place = [&](const Bounds& b) { return Bounds{b.lower + moved, b.upper + moved}; };
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
+        tree.forEachPair(other, place, [&](std::uint32_t i, std::uint32_t k) { found.emplace_back(i, k); });
+        std::ranges::sort(found);
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
+        for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+            for (std::uint32_t k = 0; k < other_boxes.size(); ++k) {
+                if (place(boxes[i]).overlaps(other_boxes[k])) all.emplace_back(i, k);
+            }
+        }
+        EXPECT_EQ(found, all) << count << " " << others;
+    }
+    const BoundsTree none;
+    none.forEachPair(
+        none, [](const Bounds& b) { return b; }, [](std::uint32_t, std::uint32_t) { FAIL(); });
+}
+
 TEST(BoundsTree, BearsEqualAndExtremeBoxes) {
     Random random(32);
     BoundsTree tree;

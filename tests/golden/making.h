@@ -14,6 +14,10 @@ Scene groundScene(std::string name);
 SceneBody bodyOf(const Shape& shape, const Vec3& position);
 /// A number that looks random, from −1 to 1, for each index.
 double scatter(std::size_t index);
+/// One of the six kinds of shapes that move, in turn.
+Shape anyShape(std::size_t index, double size);
+/// Likewise an orientation.
+Quat scatteredOrientation(std::size_t index);
 
 // Whole scenes (mixed_scenes.cpp).
 Scene mixedHeap();
@@ -26,6 +30,12 @@ extern const std::array<Action, 8> change_bodies;
 
 /// Every kind of joint, with limits, motors, a loop, a spring and a joint that breaks (mechanism.cpp).
 Scene mechanism();
+
+// What follows functions of time, and surfaces of triangles (law_scenes.cpp).
+/// Stacks and balls under gravity that is a sine.
+Scene swayingGravity();
+/// Solids of all kinds, one of them of many parts, on a height field and on a mesh that is shaken.
+Scene terrain();
 
 // On either side of where the engine changes its way of working (border_scenes.cpp).
 /// A slab that bodies slide and roll on, as one batch. @param columns of a box, a box and a ball: nine contacts each

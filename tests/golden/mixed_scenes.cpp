@@ -23,28 +23,6 @@ Compound mallet(double size) {
     return compound;
 }
 
-/// One of the six kinds of shapes that move, in turn.
-Shape anyShape(std::size_t index, double size) {
-    switch (index % 6) {
-        case 0:
-            return Sphere{size};
-        case 1:
-            return Box{{1.4 * size, 1.1 * size, 0.8 * size}};
-        case 2:
-            return Capsule{0.5 * size, size};
-        case 3:
-            return Cylinder{0.7 * size, size};
-        case 4:
-            return wedge(0.6 * size);
-        default:
-            return mallet(0.9 * size);
-    }
-}
-
-Quat scatteredOrientation(std::size_t index) {
-    return Quat(1.1 + scatter(index), scatter(index + 1), scatter(index + 2), scatter(index + 3)).normalized();
-}
-
 SceneBody wallAt(const Vec3& normal, double distance) {
     SceneBody wall;
     wall.shape = HalfSpace{normal, -distance};
@@ -87,6 +65,27 @@ SceneBody bodyOf(const Shape& shape, const Vec3& position) {
 double scatter(std::size_t index) {
     const double turns = 0.6180339887498949 * static_cast<double>(index * index + index + 1);
     return 2 * (turns - std::floor(turns)) - 1;
+}
+
+Shape anyShape(std::size_t index, double size) {
+    switch (index % 6) {
+        case 0:
+            return Sphere{size};
+        case 1:
+            return Box{{1.4 * size, 1.1 * size, 0.8 * size}};
+        case 2:
+            return Capsule{0.5 * size, size};
+        case 3:
+            return Cylinder{0.7 * size, size};
+        case 4:
+            return wedge(0.6 * size);
+        default:
+            return mallet(0.9 * size);
+    }
+}
+
+Quat scatteredOrientation(std::size_t index) {
+    return Quat(1.1 + scatter(index), scatter(index + 1), scatter(index + 2), scatter(index + 3)).normalized();
 }
 
 Scene mixedHeap() {

@@ -61,6 +61,8 @@ constexpr auto table = std::to_array<GoldenScene>({
     {"mechanism", mechanism, {30, 80, 240}, {120, 240, 480}},
     {"rolling_friction", rollingFriction, {30, 120, 240}, {60, 120, 240}},
     {"zero_gravity", zeroGravity, {20, 40, 80}, {80, 120, 240}},
+    {"swaying_gravity", swayingGravity, {30, 80, 180}, {60, 160, 320}},
+    {"terrain", terrain, {60, 120, 240}, {160, 320, 560}},
     {"waking_by_ball", settlingStacks, {90, 120, 200}, {360, 440, 720}, throw_ball},
     {"changing_bodies", changingPile, {20, 60, 120}, {40, 120, 260}, change_bodies},
     {"contacts319", [] { return crowdedSlab("319 contacts", 35, 0); }, {2, 4, 8}, {2, 6, 12}, {}, 319},

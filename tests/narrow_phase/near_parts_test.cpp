@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "narrow_phase/narrow_phase.h"
+#include "narrow_phase/parts_near_triangles.h"
 #include "surface_maker.h"
 
 namespace cairn::testing {
@@ -27,6 +31,10 @@ Shape indexed(const Compound& compound) {
     return shape;
 }
 
+Mesh roughMesh(int cells, double edge) {
+    return irregularMesh(cells, edge, 5, [](double x, double y) { return 0.1 * std::sin(5 * x) * std::cos(7 * y); });
+}
+
 /// Everything that is found, number by number.
 std::vector<double> numbersOf(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
     std::vector<double> found;
@@ -48,6 +56,7 @@ TEST(PartsOfCompounds, ATreeChangesNoBitOfWhatIsFound) {
     std::vector<std::pair<const char*, Shape>> others = solids();
     others.emplace_back("plane", HalfSpace{Vec3(0.1, 0.2, 2), 0.05});
     others.emplace_back("mesh", flatMesh(6, 3));
+    others.emplace_back("rough mesh", roughMesh(20, 3));
     others.emplace_back("blocks", small);
     Random random(11);
     for (const Vec3& far : {Vec3(0, 0, 0), Vec3(3e5, -2e5, 1e5)}) {
@@ -80,6 +89,31 @@ TEST(PartsOfCompounds, FewOfAThousandAreAsked) {
     const NearParts near(compound, pose, ground, Pose{}, boundsOf(ground, Pose{}), 0.001);
     EXPECT_GT(near.count(), 0U);
     EXPECT_LT(near.count(), 30U);
+}
+
+TEST(PartsOfCompounds, NearTrianglesAreFoundByBothTrees) {
+    const Shape shape = indexed(blocks(10));
+    const auto& compound = std::get<Compound>(shape);
+    const Mesh mesh = roughMesh(100, 3);
+    const SurfaceData& surface = mesh.data();
+    Random random(17);
+    std::size_t most = 0;
+    for (int i = 0; i < 20; ++i) {
+        const Pose pose{random.vector(0.7), random.orientation()};
+        const auto near = partsNearTriangles(compound, pose, surface, 0.01);
+        EXPECT_TRUE(std::ranges::is_sorted(near));
+        most = std::max(most, near.size());
+        for (std::uint32_t part = 0; part < compound.parts.size(); ++part) {
+            const CompoundPart& p = compound.parts[part];
+            const Bounds bounds = boundsOf(p.shape, pose.toOuter(p.pose)).grown(0.01);
+            surface.tree.forEachOverlapping(bounds, [&](std::uint32_t triangle) {
+                EXPECT_TRUE(std::ranges::binary_search(near, PartNearTriangle{part, triangle})) << part;
+            });
+        }
+    }
+    EXPECT_GT(most, 1000U);
+    EXPECT_LT(most, 20000U);  // of 20 million pairs
+    EXPECT_TRUE(partsNearTriangles(compound, {Vec3(0, 0, 5), Quat::Identity()}, surface, 0.01).empty());
 }
 
 }  // namespace

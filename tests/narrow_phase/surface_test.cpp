@@ -155,6 +155,25 @@ TEST(Surfaces, ABallInAValleyTouchesBothSidesAndNotTheEdge) {
     }
 }
 
+/// In a narrow one it is over both sides at once: none of them is behind the other.
+TEST(Surfaces, ACapsuleInANarrowValleyTouchesBothSides) {
+    constexpr double slope = 3;
+    const Mesh valley = foldedMesh(slope, 9);
+    const Quat along(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()));
+    const double height = 0.1 * std::sqrt(1 + slope * slope);  // of an axis that is a radius from both
+    for (const double aside : {0.0, 0.0005, -0.0005}) {
+        const auto found = on(valley, Capsule{0.1, 0.3}, {{aside, 0.03, height - 0.01}, along});
+        double least = 0;
+        double most = 0;
+        for (const Manifold& m : found) {
+            least = std::min(least, m.normal.x());
+            most = std::max(most, m.normal.x());
+        }
+        EXPECT_LT(least, -0.9) << aside;
+        EXPECT_GT(most, 0.9) << aside;
+    }
+}
+
 TEST(Surfaces, ABoxLiesOnARidgeWithTheEdgeAcrossItsFace) {
     for (const int cells : {1, 6, 50}) {
         const auto found = on(foldedMesh(-1, cells), Box{{0.4, 0.3, 0.2}}, at({0.05, 0.02, 0.0995}));

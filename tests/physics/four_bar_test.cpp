@@ -99,7 +99,7 @@ TEST(FourBarLinkage, MovesAsItsEquationOfMotionSays) {
     const double energy = bench.energy();
     for (int i = 0; i < 30; ++i) {
         bench.run(0.05);
-        for (int k = 0; k < 500; ++k) advance(1e-4);
+        for (int k = 0; k < 5000; ++k) advance(1e-5);
         ASSERT_NEAR(bench.world.joint(crank).position, angle - begin, 1e-5) << bench.world.time();
         farthest = std::max(farthest, std::abs(angle - begin));
     }

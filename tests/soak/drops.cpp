@@ -1,100 +1,89 @@
 /// @file Throws solids of all kinds onto rough ground of triangles and counts those that end below it.
-/// Usage: cairn_drops THROWS SEED [PRESET [STEPS_PER_SECOND]]
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "cairn/world.h"
-#include "surface_maker.h"
+#include "throws.h"
 
 namespace {
 
 using namespace cairn;
-using cairn::testing::Random;
+using namespace cairn::testing;
 
-constexpr int bodies_per_world = 240;
 constexpr int worlds_per_line = 50;  ///< between two lines that tell how far it is
-constexpr double seconds = 1.5;      ///< in which all have fallen and met the ground many times
-constexpr double fastest = 40;       ///< [m/s]
-constexpr double below = 0.1;        ///< the middle of a body that is so far below the ground is lost [m]
+constexpr const char* usage =
+    "usage: cairn_drops [--throws N] [--seed N] [--preset NAME] [--steps-per-second N] [--ground mesh|height_field]\n"
+    "                   [--company alone|together] [--smallest PART]\n";
 
-double groundHeight(double x, double y) {
-    return 0.4 * std::sin(2 * x) * std::cos(3 * y);
-}
-
-/// Hills of triangles 20 cm wide, with a rim that nothing leaves over.
-Mesh roughGround() {
-    return testing::irregularMesh(60, 12, 21, [](double x, double y) {
-        return groundHeight(x, y) + (std::max(std::abs(x), std::abs(y)) > 5 ? 40.0 : 0.0);
-    });
-}
-
-struct Thrown {
-    BodyId id;
-    const char* kind;
+struct Order {
+    int throws = 100000;
+    Preset preset = Preset::performance;
+    double steps_per_second = 0;
+    Throws world{};
 };
 
-/// Throws one world full. @return how many of each kind were lost
-std::map<std::string, int> throwAll(const Shape& ground, const Settings& settings, std::uint64_t seed) {
-    World world(settings);
-    const MaterialId oak = world.addMaterial({"oak", 800});
-    world.setDefaultPairProperties({0.3, 0.5, 0.5});
-    world.setGravity(Vec3(0, 0, -10));
-    world.addBody({.shape = ground, .material = oak, .fixed = true});
-    Random random(seed);
-    const auto shapes = testing::solids();
-    std::vector<Thrown> thrown;
-    for (int i = 0; i < bodies_per_world; ++i) {
-        const auto& [kind, shape] = shapes[static_cast<std::size_t>(i) % shapes.size()];
-        const Vec3 at(random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(1.5, 6));
-        const Vec3 v(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-fastest, 0));
-        thrown.push_back({world.addBody({.shape = shape,
-                                         .material = oak,
-                                         .pose = {at, random.orientation()},
-                                         .linear_velocity = v,
-                                         .angular_velocity = random.vector(5)}),
-                          kind});
+/// @throws std::invalid_argument for what it does not know
+Order readOrder(const std::vector<std::string>& words) {
+    Order order;
+    if (words.size() % 2 != 0) throw std::invalid_argument(fmt::format("'{}' has no value", words.back()));
+    for (std::size_t i = 0; i < words.size(); i += 2) {
+        const std::string& name = words[i];
+        const std::string& value = words[i + 1];
+        const auto oneOf = [&](const char* first, const char* second) {
+            if (value == first) return true;
+            if (value != second) throw std::invalid_argument(fmt::format("{} is {} or {}", name, first, second));
+            return false;
+        };
+        if (name == "--throws") {
+            order.throws = std::stoi(value);
+        } else if (name == "--seed") {
+            order.world.seed = std::stoull(value);
+        } else if (name == "--preset") {
+            order.preset = presetNamed(value);
+        } else if (name == "--steps-per-second") {
+            order.steps_per_second = std::stod(value);
+        } else if (name == "--ground") {
+            order.world.ground = oneOf("mesh", "height_field") ? Ground::mesh : Ground::height_field;
+        } else if (name == "--company") {
+            order.world.company = oneOf("alone", "together") ? Company::alone : Company::together;
+        } else if (name == "--smallest") {
+            order.world.smallest = std::stod(value);
+        } else {
+            throw std::invalid_argument(fmt::format("there is no option {}", name));
+        }
     }
-    while (world.time() < seconds) world.step();
-    std::map<std::string, int> lost;
-    for (const Thrown& t : thrown) {
-        const Vec3 p = world.pose(t.id).position;
-        if (p.z() > groundHeight(p.x(), p.y()) - below) continue;
-        ++lost[t.kind];
-        fmt::print("lost: seed {} body {} ({}) is at ({}, {}, {})\n", seed, t.id.index, t.kind, p.x(), p.y(), p.z());
-    }
-    return lost;
+    order.world.settings = Settings::preset(order.preset, order.steps_per_second);
+    return order;
 }
 
-int run(int throws, std::uint64_t seed, const Settings& settings) {
-    const Shape ground = roughGround();
-    std::map<std::string, int> lost;
+int run(Order order) {
+    const Shape ground = roughGround(order.world.ground);
+    int lost = 0;
     int done = 0;
-    while (done < throws) {
-        for (const auto& [kind, count] : throwAll(ground, settings, seed++)) lost[kind] += count;
-        done += bodies_per_world;
-        if (done / bodies_per_world % worlds_per_line != 0 && done < throws) continue;
-        int all = 0;
-        for (const auto& [kind, count] : lost) all += count;
-        fmt::print("{} thrown, {} lost\n", done, all);
+    for (int worlds = 1; done < order.throws; ++worlds, ++order.world.seed) {
+        for (const LostSolid& solid : throwSolids(ground, order.world)) {
+            ++lost;
+            fmt::print("lost: seed {} body {} ({}) is at ({}, {}, {})\n", solid.seed, solid.index, solid.kind,
+                       solid.position.x(), solid.position.y(), solid.position.z());
+        }
+        done += order.world.bodies;
+        if (worlds % worlds_per_line != 0 && done < order.throws) continue;
+        fmt::print("{} thrown, {} lost\n", done, lost);
         std::fflush(stdout);
     }
-    return lost.empty() ? 0 : 1;
+    return lost == 0 ? 0 : 1;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc < 3) {
-        fmt::print(stderr, "usage: cairn_drops THROWS SEED [PRESET [STEPS_PER_SECOND]]\n");
+    try {
+        return run(readOrder(std::vector<std::string>(argv + 1, argv + argc)));
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n{}", error.what(), usage);
         return 2;
     }
-    const std::string preset = argc > 3 ? argv[3] : "performance";
-    const double rate = argc > 4 ? std::atof(argv[4]) : 240;
-    return run(std::atoi(argv[1]), std::strtoull(argv[2], nullptr, 10), Settings::preset(presetNamed(preset), rate));
 }
