@@ -23,21 +23,6 @@ std::vector<Value> gather(Ranks& ranks, const Value& own) {
     return all;
 }
 
-struct Overlaps {
-    std::int64_t count = 0;
-    double sum = 0;  ///< [m]
-};
-
-Overlaps overlapsOf(const World& world) {
-    Overlaps overlaps;
-    for (const ContactInfo& contact : world.contacts()) {
-        if (contact.distance >= 0) continue;
-        ++overlaps.count;
-        overlaps.sum -= contact.distance;
-    }
-    return overlaps;
-}
-
 }  // namespace
 
 bool Together::anywhere(bool here) {
@@ -58,16 +43,7 @@ std::optional<std::string> Together::firstOf(const std::optional<std::string>& o
 Statistics Together::total(const Statistics& own, const World& world) {
     if (ranks_ == nullptr) return own;
     Statistics sum = sumOverRanks(*ranks_, own);
-    if (!world.isDivided()) {
-        sum.mean_overlap = world.statistics().mean_overlap;
-        return sum;
-    }
-    Overlaps all;
-    for (const Overlaps& one : gather(*ranks_, overlapsOf(world))) {
-        all.count += one.count;
-        all.sum += one.sum;
-    }
-    sum.mean_overlap = all.count > 0 ? all.sum / static_cast<double>(all.count) : 0;
+    sum.mean_overlap = world.sums().mean_overlap;
     return sum;
 }
 

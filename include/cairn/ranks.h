@@ -96,8 +96,9 @@ struct Partition {
 /// The kind with a name: boxes, x, y, z or hash. @throws InputError for another name; the text names all
 PartitionKind partitionNamed(std::string_view name);
 
-/// What all ranks counted: the sums of numbers, the largest sizes, and the times of the slowest; without the mean
-/// overlap, which is World::statistics() after World::gather(). To be called by all ranks. @param own of this rank
+/// What all ranks counted: the sums of numbers, the largest sizes, the times of the slowest, and the diagnostics, which
+/// are of the whole world already; without the mean overlap, which stands in World::sums(). To be called by all ranks.
+/// @param own of this rank
 Statistics sumOverRanks(Ranks& ranks, const Statistics& own);
 /// The sum of a number of every rank, modulo 2⁶⁴: of World::stateHash() it is that of the whole world.
 std::uint64_t sumOverRanks(Ranks& ranks, std::uint64_t own);

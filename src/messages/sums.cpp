@@ -30,6 +30,7 @@ Statistics sumOverRanks(Ranks& ranks, const Statistics& own) {
     pack(message, own.largest_overlap);
     pack(message, own.stage_ms);
     Statistics sum;
+    sum.diagnostics = own.diagnostics;
     for (const auto& told : tellAll(ranks, message)) {
         Unpacker in(told);
         for (const auto count : counts) sum.*count += in.get<std::int64_t>();

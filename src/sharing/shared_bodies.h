@@ -48,10 +48,9 @@ class SharedBodies {
     bool isWhole() const { return whole_; }
     /// The largest of DealtOut::fastest that ranks told at the last settle() [m/s].
     double fastest() const { return fastest_; }
-    /// Whether a body of a divided world counts in a sum over all ranks: of fixed bodies the first rank tells.
-    bool isCounted(const BodyStorage& bodies, BodyIndex i) const {
-        return bodies.kind[i] == BodyKind::dynamic || ranks_.rank() == 0;
-    }
+    /// Whether a body of a divided world counts in a sum over all ranks: of fixed bodies the first rank tells, but of
+    /// one that a fault fixed in this step only the rank that has it knows.
+    bool isCounted(BodyIndex i) const { return kind_[i] == BodyKind::dynamic || ranks_.rank() == 0; }
 
     /// Brings the bodies to where they belong, before a detection. If the world is whole it is divided afterwards.
     /// @return whether bodies left or came

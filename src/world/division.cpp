@@ -67,6 +67,8 @@ void gatherSensed(WorldState& world) {
         for (Unpacker in(told); !in.isAtEnd();) sensed.push_back(in.get<Sensed>());
     }
     std::ranges::sort(sensed, {}, [](const Sensed& one) { return std::tuple(one.sensor, one.body); });
+    // Of fixed bodies all ranks tell.
+    sensed.erase(std::unique(sensed.begin(), sensed.end()), sensed.end());
 }
 
 /// Adds up what the ranks counted in the last step, and lists the faults of all.
@@ -91,7 +93,6 @@ void gatherReports(WorldState& world) {
 
 void settleShared(WorldState& world, const DetectionRange& range, bool flown) {
     if (world.shared == nullptr) return;
-    if (world.shared->isWhole()) requireShareable(world);
     const std::vector<BodyPair> tied = tiedBodies(world);
     std::span<Vec3> begun;
     if (flown && world.settings.integration.exact_flight) begun = world.data.before.position;
@@ -99,7 +100,11 @@ void settleShared(WorldState& world, const DetectionRange& range, bool flown) {
     const bool changed = world.shared->settle({world.bodies, data.pairs, data.contacts, world.joints, begun, tied,
                                                range, data.fastest, world.steps, world.executor});
     data.fastest = world.shared->fastest();
-    if (changed) prepareJoints(world);
+    if (!changed) return;
+    prepareJoints(world);
+    if (world.events.level == EventLevel::none) return;
+    // Nobody fell asleep in this step yet, so whoever came asleep was so before.
+    for (BodyIndex i = 0; i < world.bodies.slots(); ++i) world.events.asleep_before[i] |= world.bodies.asleep[i];
 }
 
 void gatherShared(WorldState& world) {
@@ -121,18 +126,6 @@ void requireWhole(const WorldState& world, std::string_view call) {
     throw InputError(fmt::format(
         "{} needs all bodies, and the world is divided among {} ranks: call World::gather() on all of them first", call,
         world.shared->ranks().size()));
-}
-
-void requireShareable(const WorldState& world) {
-    const auto refuse = [](std::string_view what, std::string_view remedy) {
-        throw InputError(fmt::format("{} cannot be shared among ranks yet; {}", what, remedy));
-    };
-    if (world.settings.diagnostics.diagnostics) {
-        refuse("a world that measures diagnostics", "switch the setting off, or run it on one rank");
-    }
-    if (world.events.level != EventLevel::none) {
-        refuse("a world that notes events", "set its event level to none, or run it on one rank");
-    }
 }
 
 }  // namespace cairn

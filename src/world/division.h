@@ -17,7 +17,4 @@ void gatherShared(WorldState& world);
 /// @param call that needs all bodies, such as "World::addBody" @throws InputError if the world is divided among ranks
 void requireWhole(const WorldState& world, std::string_view call);
 
-/// @throws InputError for what a world that ranks share cannot have: the text names it and the remedy
-void requireShareable(const WorldState& world);
-
 }  // namespace cairn

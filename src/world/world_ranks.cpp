@@ -7,7 +7,6 @@ namespace cairn {
 
 void World::share(Ranks& ranks, const Partition& partition) {
     requireWhole(*state_, "World::share");
-    requireShareable(*state_);
     state_->shared = std::make_unique<SharedBodies>(ranks, partition);
 }
 
