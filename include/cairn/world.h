@@ -24,6 +24,12 @@
 
 namespace cairn {
 
+/// What one rank saved.
+struct SavedPart {
+    std::vector<std::byte> bytes;
+    std::string source;  ///< for messages, such as the name of its file
+};
+
 /// Sums over all bodies, and over the contacts of the last step. They are rounded once, so that they have the same bits
 /// on any number of ranks.
 struct WorldSums {
@@ -333,10 +339,17 @@ class World {
     /// sending the world to every rank. Does nothing in a world that is not divided.
     void gather();
     bool isDivided() const noexcept;  ///< whether bodies are missing that other ranks have
+    Ranks* ranks() const noexcept;    ///< that share the world; null = it is on one
 
     // --- snapshots ---
     /// Everything that the world is, so that it goes on bit by bit as it would have. @source docs/snapshots.md
     std::vector<std::byte> save() const;
+    /// What this rank has of a divided world, in bytes: the parts of all ranks are the world. @throws InputError for a
+    /// world that is not divided
+    std::vector<std::byte> savePart() const;
+    /// A whole world from the parts of all ranks, in their order; it may be shared again with any number of ranks.
+    /// @throws InputError naming part and offset if they are damaged or not those of one moment
+    static World restoreParts(std::span<const SavedPart> parts);
     /// As save(), into a buffer whose memory is used again.
     void saveTo(std::vector<std::byte>& buffer) const;
     /// A world as it was saved. @throws InputError with the offset, for bytes that are truncated, damaged or too new

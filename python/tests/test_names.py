@@ -45,7 +45,8 @@ WITHOUT: dict[str, str] = {
     "World.contains": "id in world",
     **dict.fromkeys(("Ranks", "Traffic", "RankLostError", "MessageDelay", "Partition", "PartitionKind"), "ranks are for programs in C++"),
     **dict.fromkeys(("runRanks", "mpiRanks", "isStartedByMpi", "partitionNamed", "sumOverRanks"), "likewise"),
-    **dict.fromkeys(("World.share", "World.gather", "World.isDivided", "World.sums", "WorldSums"), "likewise"),
+    **dict.fromkeys(("World.share", "World.gather", "World.isDivided", "World.sums", "WorldSums", "World.ranks"), "likewise"),
+    **dict.fromkeys(("SavedPart", "World.savePart", "World.restoreParts", "SceneRun.savePart", "SceneRun.restoreParts"), "likewise"),
 }
 
 # What Python has besides: whole runs, arrays of all frames, and what C++ says in another way.

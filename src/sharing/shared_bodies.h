@@ -52,6 +52,18 @@ class SharedBodies {
     /// one that a fault fixed in this step only the rank that has it knows.
     bool isCounted(BodyIndex i) const { return kind_[i] == BodyKind::dynamic || ranks_.rank() == 0; }
 
+    /// Whether a rank tells of a slot what all that have no such body must know: of divided worlds each slot is told by
+    /// one rank, by the first where the body is on all or there is none.
+    bool isTold(const BodyStorage& bodies, BodyIndex i) const {
+        if (kind_[i] != BodyKind::dynamic) return ranks_.rank() == 0;
+        return bodies.kind[i] != BodyKind::hole;
+    }
+    /// Whether a joint is where a body of it is that this rank has.
+    bool hasJoint(const BodyStorage& bodies, const Joint& joint) const {
+        const BodyIndex end = endOf(joint);
+        return end != Joint::world && bodies.kind[end] != BodyKind::hole;
+    }
+
     /// Brings the bodies to where they belong, before a detection. If the world is whole it is divided afterwards.
     /// @return whether bodies left or came
     bool settle(const DealtOut& world);

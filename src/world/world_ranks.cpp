@@ -14,6 +14,10 @@ void World::gather() {
     gatherShared(*state_);
 }
 
+Ranks* World::ranks() const noexcept {
+    return state_->shared != nullptr ? &state_->shared->ranks() : nullptr;
+}
+
 bool World::isDivided() const noexcept {
     return state_->shared != nullptr && !state_->shared->isWhole();
 }
