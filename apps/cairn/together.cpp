@@ -40,11 +40,15 @@ std::optional<std::string> Together::firstOf(const std::optional<std::string>& o
     return std::nullopt;
 }
 
-Statistics Together::total(const Statistics& own, const World& world) {
+Statistics Together::total(const Statistics& own, const WorldSums& sums) {
     if (ranks_ == nullptr) return own;
     Statistics sum = sumOverRanks(*ranks_, own);
-    sum.mean_overlap = world.sums().mean_overlap;
+    sum.mean_overlap = sums.mean_overlap;
     return sum;
+}
+
+std::uint64_t Together::numberOfFirst(std::uint64_t own) {
+    return ranks_ == nullptr ? own : gather(*ranks_, own).front();
 }
 
 std::uint64_t Together::hash(const World& world) {

@@ -26,8 +26,8 @@ namespace cairn {
 
 /// What one rank saved.
 struct SavedPart {
-    std::vector<std::byte> bytes;
-    std::string source;  ///< for messages, such as the name of its file
+    std::vector<std::byte> bytes;  ///< of World::savePart() or SceneRun::savePart()
+    std::string source;            ///< for messages, such as the name of its file
 };
 
 /// Sums over all bodies, and over the contacts of the last step. They are rounded once, so that they have the same bits
@@ -340,6 +340,10 @@ class World {
     void gather();
     bool isDivided() const noexcept;  ///< whether bodies are missing that other ranks have
     Ranks* ranks() const noexcept;    ///< that share the world; null = it is on one
+    /// Whether a body, or a joint, is here, and counts as this rank's: of what is on all ranks the first one's. Each is
+    /// own on one rank; without other ranks what is there is own.
+    bool isOwn(BodyId id) const noexcept;
+    bool isOwn(JointId id) const noexcept;
 
     // --- snapshots ---
     /// Everything that the world is, so that it goes on bit by bit as it would have. @source docs/snapshots.md

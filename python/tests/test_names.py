@@ -47,6 +47,9 @@ WITHOUT: dict[str, str] = {
     **dict.fromkeys(("runRanks", "mpiRanks", "isStartedByMpi", "partitionNamed", "sumOverRanks"), "likewise"),
     **dict.fromkeys(("World.share", "World.gather", "World.isDivided", "World.sums", "WorldSums", "World.ranks"), "likewise"),
     **dict.fromkeys(("SavedPart", "World.savePart", "World.restoreParts", "SceneRun.savePart", "SceneRun.restoreParts"), "likewise"),
+    **dict.fromkeys(("World.isOwn", "FramePart", "captureFramePart", "RecordingPartWriter", "recordingPart"), "likewise"),
+    **dict.fromkeys(("RecordingOptions.parts", "RecordingOptions.mark", "RecordingInfo.parts"), "likewise"),
+    "mergeRecording": "cairn merge",
 }
 
 # What Python has besides: whole runs, arrays of all frames, and what C++ says in another way.

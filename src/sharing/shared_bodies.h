@@ -63,6 +63,10 @@ class SharedBodies {
         const BodyIndex end = endOf(joint);
         return end != Joint::world && bodies.kind[end] != BodyKind::hole;
     }
+    /// As isTold() of a joint.
+    bool tellsJoint(const BodyStorage& bodies, const Joint& joint) const {
+        return endOf(joint) == Joint::world ? ranks_.rank() == 0 : hasJoint(bodies, joint);
+    }
 
     /// Brings the bodies to where they belong, before a detection. If the world is whole it is divided afterwards.
     /// @return whether bodies left or came

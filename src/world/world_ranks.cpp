@@ -18,6 +18,21 @@ Ranks* World::ranks() const noexcept {
     return state_->shared != nullptr ? &state_->shared->ranks() : nullptr;
 }
 
+bool World::isOwn(BodyId id) const noexcept {
+    if (!contains(id)) return false;
+    const SharedBodies* shared = state_->shared.get();
+    if (shared == nullptr) return true;
+    return shared->isWhole() ? shared->ranks().rank() == 0 : shared->isTold(state_->bodies, id.index);
+}
+
+bool World::isOwn(JointId id) const noexcept {
+    if (!contains(id)) return false;
+    const SharedBodies* shared = state_->shared.get();
+    if (shared == nullptr) return true;
+    return shared->isWhole() ? shared->ranks().rank() == 0
+                             : shared->tellsJoint(state_->bodies, state_->joints[id.index]);
+}
+
 bool World::isDivided() const noexcept {
     return state_->shared != nullptr && !state_->shared->isWhole();
 }

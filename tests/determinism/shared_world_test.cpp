@@ -325,6 +325,53 @@ TEST(SharedWorld, GoesOnFromASnapshotOfAllRanksOnOthers) {
     }
 }
 
+TEST(SharedWorld, GoesOnFromThePartsOfAllRanksOnOthers) {
+    // With joints that hold and break, springs, a sensor, a body fixed by a fault, removed ones and new ones.
+    Scene scene = row(10);
+    scene.joints.push_back({2, 1, {.kind = JointKind::ball, .anchor = {0.25, 0, 0.2}, .break_force = 30}});
+    scene.joints.push_back({9, {}, {.kind = JointKind::ball, .anchor = {4, 0, 1}}});
+    scene.springs.push_back({.a = 3, .b = 6, .anchor_b = Vec3::Zero(), .stiffness = 300, .damping = 1});
+    SceneBody gate = ballAt({1.75, 0, 0.1});
+    gate.shape = Box{{0.6, 0.4, 0.3}};
+    gate.sensor = true;
+    gate.fixed = true;
+    scene.bodies.push_back(gate);
+    scene.events.push_back({0.2, SetForce{4, {1e20, 0, 0}}});
+    Settings settings = settingsFor(scene);
+    settings.diagnostics.diagnostics = true;
+    SceneRun alone(scene, settings);
+    alone.world().setEventLevel(EventLevel::all);
+    const auto go = [](SceneRun& run, int steps) {
+        for (int i = 0; i < steps; ++i) run.step();
+    };
+    go(alone, 30);
+    meddle(alone);
+    go(alone, 50);
+    for (const Partition& partition : {Partition{}, by_hash, restless}) {
+        std::vector<SavedPart> parts(4);
+        runRanks(4, [&](Ranks& ranks) {
+            SceneRun run(scene, settings);
+            run.world().setEventLevel(EventLevel::all);
+            run.world().share(ranks, partition);
+            go(run, 30);
+            run.world().gather();
+            EXPECT_THROW(run.savePart(), InputError);
+            meddle(run);
+            go(run, 50);
+            parts[static_cast<std::size_t>(ranks.rank())] = {run.savePart(), "part"};
+        });
+        SceneRun whole = SceneRun::restoreParts(parts);
+        EXPECT_TRUE(whole.save() == alone.save());
+        EXPECT_THROW(SceneRun::restoreParts(std::span(parts).first(3)), InputError);
+        std::swap(parts[1], parts[2]);
+        EXPECT_THROW(SceneRun::restoreParts(parts), InputError);
+        parts[1] = parts[2];
+        EXPECT_THROW(SceneRun::restoreParts(parts), InputError);
+        parts[1].bytes.pop_back();
+        EXPECT_THROW(SceneRun::restoreParts(parts), InputError);
+    }
+}
+
 /// The text of the error of a call.
 template <class Call>
 std::string errorOf(const Call& call) {
