@@ -43,7 +43,7 @@ WITHOUT: dict[str, str] = {
     "World.contactsTo": "World.contacts()",
     "World.bodyViews": "World.bodies",
     "World.contains": "id in world",
-    **dict.fromkeys(("Ranks", "Traffic", "RankLostError", "MessageDelay", "Partition", "PartitionKind"), "ranks are for programs in C++"),
+    **dict.fromkeys(("Ranks", "Traffic", "RankLostError", "RankLateError", "MessageDelay", "Partition", "PartitionKind"), "ranks are for programs in C++"),
     **dict.fromkeys(("runRanks", "mpiRanks", "isStartedByMpi", "partitionNamed", "sumOverRanks"), "likewise"),
     **dict.fromkeys(("World.share", "World.gather", "World.isDivided", "World.sums", "WorldSums", "World.ranks"), "likewise"),
     **dict.fromkeys(("SavedPart", "World.savePart", "World.restoreParts", "SceneRun.savePart", "SceneRun.restoreParts"), "likewise"),

@@ -60,7 +60,7 @@ TEST_F(SharedRuns, EndAsThoseOfOneRank) {
           {"--ranks", "4"},
           {"--ranks", "2x2x1"},
           {"--ranks", "3", "--partition", "hash"},
-          {"--ranks", "3", "--rebalance-every", "5", "--message-delay", "20,1"}}) {
+          {"--ranks", "3", "--rebalance-every", "5", "--message-delay", "20,1,50"}}) {
         std::vector<std::string> shared = run;
         shared.insert(shared.end(), division.begin(), division.end());
         json report = reportOf(shared);
@@ -170,6 +170,7 @@ TEST_F(SharedRuns, TellWhatCannotBe) {
     expectWrongUse({"run", "stacks5", "--ranks", "2", "--partition", "q"}, {"partition 'q' is unknown", "hash"});
     expectWrongUse({"run", "stacks5", "--partition", "x"}, {"--partition needs --ranks, or mpirun"});
     expectWrongUse({"run", "stacks5", "--ranks", "2", "--message-delay", "5"}, {"--message-delay is '5'", "5,1"});
+    expectWrongUse({"run", "stacks5", "--ranks", "2", "--patience", "-1"}, {"--patience is -1", "0 to wait for ever"});
     expectWrongUse({"run", "stacks5", "--ranks", "2", "--rebalance-every", "-1"}, {"--rebalance-every is -1"});
     expectWrongUse({"run", "nothing", "--ranks", "3"}, {"no built-in scene and no file 'nothing'"});
 }
