@@ -91,7 +91,7 @@ sanitize:
 	@tools/sanitize tsan
 
 ranks:
-	@tools/install_packages build test ranks sanitize
+	@tools/install_packages build test ranks develop
 	@$(CONFIGURE)
 	@$(BUILD) cairn_cli test_determinism
 	@tools/ranks
