@@ -38,6 +38,7 @@ class Runner {
         if (auto option = parseCheckpoint(options.checkpoint, usual_checkpoint)) checkpoints_.emplace(*option);
         hashed_ = options.hashes;
         records_ = !options.record.empty();
+        counts_ = !options.stats.empty();
         const double steps = run_.world().settings().steps_per_second;
         recorded_.frame_rate = options.frame_rate;
         recorded_.hashes_per_frame = static_cast<std::size_t>(hashed_ ? std::lround(steps / options.frame_rate) : 0);
@@ -119,7 +120,7 @@ class Runner {
                 recording_.emplace(options.record, run_.scene(), settings, recorded_);
             }
             if (records_ && together_.isShared()) part_.emplace(options.record, together_.rank(), recorded_);
-            if (!options.stats.empty() && together_.isFirst()) stats_.emplace(options.stats, settings);
+            if (counts_ && together_.isFirst()) stats_.emplace(options.stats, settings);
         });
     }
 
@@ -150,10 +151,10 @@ class Runner {
             sum.add(run_.world().statistics());
             if (records_ && isFrameDue(run_, recorded_.frame_rate)) record();
         }
-        WorldSums sums;
-        if (together_.isShared() || stats_) sums = run_.world().sums();
-        sum = together_.total(sum, sums);
+        if (together_.isShared()) sum = together_.total(sum, run_.world().meanOverlap());
         measurements_.add(ms, sum);
+        if (!counts_) return;
+        const WorldSums sums = run_.world().sums();
         tryTo([&] {
             if (stats_) stats_->add(run_.world(), ms, sum, sums);
         });
@@ -183,7 +184,7 @@ class Runner {
         const WorldSums sums = run_.world().sums();
         Frame frame;
         frame.time = run_.world().time();
-        frame.statistics = together_.total(own, sums);
+        frame.statistics = together_.total(own, sums.mean_overlap);
         frame.kinetic_energy = sums.kinetic_energy;
         frame.potential_energy = sums.potential_energy;
         frame.step_hashes = std::exchange(hashes_, {});
@@ -212,7 +213,8 @@ class Runner {
     RecordingOptions recorded_;
     Measurements measurements_;
     bool hashed_ = false;
-    bool records_ = false;               ///< also on the ranks that do not write
+    bool records_ = false;
+    bool counts_ = false;                ///< statistics are written, by the first rank
     std::vector<std::uint64_t> hashes_;  ///< of the time steps since the last frame
     Statistics since_frame_;             ///< of the same
 };

@@ -40,10 +40,10 @@ std::optional<std::string> Together::firstOf(const std::optional<std::string>& o
     return std::nullopt;
 }
 
-Statistics Together::total(const Statistics& own, const WorldSums& sums) {
+Statistics Together::total(const Statistics& own, double mean_overlap) {
     if (ranks_ == nullptr) return own;
     Statistics sum = sumOverRanks(*ranks_, own);
-    sum.mean_overlap = sums.mean_overlap;
+    sum.mean_overlap = mean_overlap;
     return sum;
 }
 

@@ -32,8 +32,9 @@ class Together {
     bool anywhere(bool here);
     /// What the lowest rank that has something to say says.
     std::optional<std::string> firstOf(const std::optional<std::string>& own);
-    /// What all counted in the same steps, up to now. @param own of this rank @param sums of the whole world
-    Statistics total(const Statistics& own, const WorldSums& sums);
+    /// What all counted in the same steps, up to now. @param own of this rank @param mean_overlap of the whole world
+    /// [m]
+    Statistics total(const Statistics& own, double mean_overlap);
     /// The number that the first rank gives.
     std::uint64_t numberOfFirst(std::uint64_t own);
     /// The sum of what all give.

@@ -415,6 +415,8 @@ class World {
     std::uint64_t stateHash() const;
     /// Of a divided world those of all ranks, to be called by all of them; nothing but the sums is sent.
     WorldSums sums() const;
+    /// WorldSums::mean_overlap alone, likewise [m].
+    double meanOverlap() const;
 
   private:
     explicit World(std::unique_ptr<WorldState> state);

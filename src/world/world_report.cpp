@@ -180,20 +180,36 @@ std::uint64_t World::stateHash() const {
     return sum;
 }
 
+double World::meanOverlap() const {
+    Overlaps overlaps = overlapsOf(*state_);
+    if (!isDivided()) return overlaps.mean();
+    Ranks& ranks = state_->shared->ranks();
+    std::vector<std::byte> message;
+    pack(message, overlaps.sum);
+    pack(message, overlaps.count);
+    const Ranks::Messages told = tellAll(ranks, message);
+    for (std::size_t rank = 0; rank < told.size(); ++rank) {
+        if (rank == static_cast<std::size_t>(ranks.rank())) continue;
+        Unpacker in(told[rank]);
+        overlaps.sum.add(in.getSum());
+        overlaps.count += in.get<std::int64_t>();
+    }
+    return overlaps.mean();
+}
+
 WorldSums World::sums() const {
     const BodyStorage& b = state_->bodies;
     ExactSum kinetic = kineticEnergyOf(b);
     ExactSum potential = potentialEnergyOf(b, state_->gravity + state_->global_acceleration);
     ExactVectorSum momentum = linearMomentumOf(b);
     ExactVectorSum angular = angularMomentumOf(b);
-    Overlaps overlaps = overlapsOf(*state_);
     WorldSums sums;
+    sums.mean_overlap = meanOverlap();
     sums.asleep = std::ranges::count(b.asleep, std::uint8_t{1});
     sums.state_hash = stateHash();
     const auto forSums = [&](const auto& visit) {
         visit(kinetic);
         visit(potential);
-        visit(overlaps.sum);
         momentum.forAxes(visit);
         angular.forAxes(visit);
     };
@@ -201,14 +217,12 @@ WorldSums World::sums() const {
         Ranks& ranks = state_->shared->ranks();
         std::vector<std::byte> message;
         forSums([&](const ExactSum& sum) { pack(message, sum); });
-        pack(message, overlaps.count);
         pack(message, sums.asleep);
         const Ranks::Messages told = tellAll(ranks, message);
         for (std::size_t rank = 0; rank < told.size(); ++rank) {
             if (rank == static_cast<std::size_t>(ranks.rank())) continue;
             Unpacker in(told[rank]);
             forSums([&](ExactSum& sum) { sum.add(in.getSum()); });
-            overlaps.count += in.get<std::int64_t>();
             sums.asleep += in.get<std::int64_t>();
         }
         sums.state_hash = sumOverRanks(ranks, sums.state_hash);
@@ -217,7 +231,6 @@ WorldSums World::sums() const {
     sums.potential_energy = potential.rounded();
     sums.linear_momentum = momentum.rounded();
     sums.angular_momentum = angular.rounded();
-    sums.mean_overlap = overlaps.mean();
     return sums;
 }
 
