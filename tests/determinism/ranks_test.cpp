@@ -66,7 +66,15 @@ std::vector<Division> everyDivision() {
 }
 
 const bool takes_all = std::getenv("CAIRN_ALL_RANKS") != nullptr;
-const std::vector<Division> divisions = takes_all ? everyDivision() : some_divisions;
+
+/// With the slower settings fewer will do.
+std::vector<Division> divisionsFor(golden::Kind kind) {
+    using enum golden::Kind;
+    if (takes_all) return kind == performance || kind == accuracy ? everyDivision() : some_divisions;
+    if (kind == performance) return some_divisions;
+    return {some_divisions[0], some_divisions[1]};
+}
+
 /// With CAIRN_LATE_MESSAGES in the environment messages are late by chance.
 const bool are_late = std::getenv("CAIRN_LATE_MESSAGES") != nullptr;
 const MessageDelay delay = are_late ? MessageDelay{.jitter = 1e-5} : MessageDelay{};
@@ -121,10 +129,7 @@ TEST_P(RanksAgree, StatesAreThoseOfOneRankAtEveryStep) {
     const golden::Kind kind = std::get<1>(GetParam());
     const golden::GoldenScene& scene = golden::goldenScene(name);
     const Expected expected = runAlone(scene, kind);
-    // With the slower settings two will do.
-    const bool whole = takes_all || kind == golden::Kind::performance;
-    const auto some = std::span(divisions).first(whole ? divisions.size() : 2);
-    for (const Division& division : some) {
+    for (const Division& division : divisionsFor(kind)) {
         SCOPED_TRACE(division.name);
         runRanks(
             division.ranks,
