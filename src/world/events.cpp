@@ -47,20 +47,20 @@ auto placeOf(const Sensed& s) {
 }
 
 /// Goes through two lists that are sorted by their places: began(i) for what only the second has, lasted(i) for what is
-/// in both, ended(i) for what only the first has.
-template <class Before, class Now, class Began, class Lasted, class Ended>
-void compare(const Before& before, const Now& now, const Began& began, const Lasted& lasted, const Ended& ended) {
+/// in both, ended(i) for what only the first has. @param forNow calls with each of the second
+template <class Before, class ForNow, class Began, class Lasted, class Ended>
+void compare(const Before& before, const ForNow& forNow, const Began& began, const Lasted& lasted, const Ended& ended) {
     auto old = before.begin();
-    for (auto i = now.begin(); i != now.end(); ++i) {
+    forNow([&](const auto& now) {
         // The pair of a body that was replaced ends before that of its successor begins.
-        for (; old != before.end() && placeOf(*old) < placeOf(*i); ++old) ended(*old);
-        if (old == before.end() || placeOf(*i) < placeOf(*old)) {
-            began(*i);
-            continue;
+        for (; old != before.end() && placeOf(*old) < placeOf(now); ++old) ended(*old);
+        if (old == before.end() || placeOf(now) < placeOf(*old)) {
+            began(now);
+            return;
         }
-        lasted(*i);
+        lasted(now);
         ++old;
-    }
+    });
     for (; old != before.end(); ++old) ended(*old);
 }
 
@@ -72,17 +72,18 @@ struct TouchingNow : Touching {
 /// Tells which pairs began to touch, touched on and parted, in their order.
 void collectContacts(WorldState& world) {
     EventLog& log = world.events;
-    std::vector<TouchingNow> touching;
-    for (const ContactPair& pair : world.data.pairs.pairs()) {
-        if (pair.touches()) touching.push_back({{world.bodies.idOf(pair.a), world.bodies.idOf(pair.b)}, &pair});
-    }
+    const auto forTouching = [&](const auto& use) {
+        for (const ContactPair& pair : world.data.pairs.pairs()) {
+            if (pair.touches()) use(TouchingNow{{world.bodies.idOf(pair.a), world.bodies.idOf(pair.b)}, &pair});
+        }
+    };
     const auto tell = [&](const TouchingNow& now, EventKind kind) {
         Event event = pairEvent(world, std::span(world.data.contacts).subspan(now.pair->first, now.pair->count));
         event.kind = kind;
         log.events.push_back(event);
     };
     compare(
-        log.touched_before, touching, [&](const TouchingNow& now) { tell(now, EventKind::contact_begun); },
+        log.touched_before, forTouching, [&](const TouchingNow& now) { tell(now, EventKind::contact_begun); },
         [&](const TouchingNow& now) {
             if (log.level == EventLevel::all) tell(now, EventKind::contact_persisted);
         },
@@ -95,8 +96,9 @@ void collectSensed(WorldState& world) {
     const auto tell = [&](const Sensed& sensed, EventKind kind) {
         log.events.push_back({.kind = kind, .a = sensed.sensor, .b = sensed.body});
     };
+    const auto forSensed = [&](const auto& use) { std::ranges::for_each(world.data.sensed, use); };
     compare(
-        log.sensed_before, world.data.sensed, [&](const Sensed& now) { tell(now, EventKind::sensor_entered); },
+        log.sensed_before, forSensed, [&](const Sensed& now) { tell(now, EventKind::sensor_entered); },
         [](const Sensed&) {}, [&](const Sensed& old) { tell(old, EventKind::sensor_left); });
 }
 
