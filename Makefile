@@ -8,6 +8,7 @@
 #   make site      build the site of the documents, with examples and references: build/site/html
 #   make golden    list which golden runs changed; make golden UPDATE=1 renews tests/golden/hashes.json
 #   make sanitize  run the tests under the address, undefined-behaviour and thread sanitizers
+#   make ranks     prove that ranks give the bits of one: all numbers, cuts, mpirun, kill -9, thread sanitizer
 #   make coverage  measure which lines of detection and response the tests run
 #   make fuzz SECONDS=60   fuzz the readers, the narrow phase, questions and the world, each target for so long
 #   make soak SIMULATED=3600 WALL=3600   pour a mixed pile for so many seconds: nothing may leak, slow down or creep
@@ -34,7 +35,7 @@ export CCACHE_SLOPPINESS ?= pch_defines,time_macros
 
 COMPANIONS = cairn-view cairn-bench cairn-bench-thesis cairn-validate
 
-.PHONY: run check test python wheel site golden sanitize coverage fuzz soak thesis bench validate results format tidy install clean \
+.PHONY: run check test python wheel site golden sanitize ranks coverage fuzz soak thesis bench validate results format tidy install clean \
     programs $(COMPANIONS)
 
 run:
@@ -88,6 +89,12 @@ sanitize:
 	@tools/install_packages build check develop python
 	@tools/sanitize asan-ubsan
 	@tools/sanitize tsan
+
+ranks:
+	@tools/install_packages build test ranks develop
+	@$(CONFIGURE)
+	@$(BUILD) cairn_cli test_determinism
+	@tools/ranks
 
 coverage:
 	@tools/install_packages build check develop

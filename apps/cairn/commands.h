@@ -7,9 +7,9 @@
 
 namespace cairn::cli {
 
-AddCommands addRun, addResume, addReplay, addScenes, addInfo, addExport, addSettings;
+AddCommands addRun, addResume, addReplay, addMerge, addScenes, addInfo, addExport, addSettings;
 
-inline constexpr std::array<AddCommands*, 7> all_commands = {addRun,  addResume, addReplay,  addScenes,
-                                                             addInfo, addExport, addSettings};
+inline constexpr std::array<AddCommands*, 8> all_commands = {addRun,    addResume, addReplay, addMerge,
+                                                             addScenes, addInfo,   addExport, addSettings};
 
 }  // namespace cairn::cli

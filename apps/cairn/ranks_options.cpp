@@ -17,6 +17,7 @@ struct RanksWish {
     int count = 0;  ///< 0 = not said
     Partition partition;
     MessageDelay delay;
+    double patience = 0;  ///< [s]; 0 = for ever
 };
 
 /// Numbers with a letter between them. @return empty if the text is none such
@@ -68,25 +69,32 @@ RanksWish parse(const RanksOptions& options) {
     wish.partition.rebalance_every = options.rebalance_every;
     if (!options.delay.empty()) {
         const std::vector<double> times = parseNumbers<double>(options.delay, ',');
-        if (times.size() != 2 || !(times[0] >= 0 && times[0] <= 1e6 && times[1] >= 0 && times[1] <= 1e6)) {
+        const bool sound = std::ranges::all_of(times, [](double time) { return time >= 0 && time <= 1e6; });
+        if (times.size() < 2 || times.size() > 3 || !sound) {
             throw InputError(
-                fmt::format("--message-delay is '{}'; it must be microseconds per message and nanoseconds "
-                            "per byte, such as 5,1",
+                fmt::format("--message-delay is '{}'; it must be microseconds per message, nanoseconds per byte and, "
+                            "if need be, microseconds that differ from message to message, such as 5,1 or 5,1,20",
                             options.delay));
         }
-        wish.delay = {1e-6 * times[0], 1e-9 * times[1]};
+        wish.delay = {1e-6 * times[0], 1e-9 * times[1], times.size() > 2 ? 1e-6 * times[2] : 0};
     }
+    if (!(options.patience >= 0 && options.patience <= 1e6)) {
+        throw InputError(fmt::format("--patience is {}; it must be seconds up to a million, or 0 to wait for ever",
+                                     options.patience));
+    }
+    wish.patience = options.patience;
     return wish;
 }
 
 /// Prepares the run of one rank; what is wrong with it is wrong on all ranks, and the first one tells.
-int runShared(Ranks& ranks, const Partition& partition, const OutputOptions& outputs,
+int runShared(Ranks& ranks, const RanksWish& wish, const OutputOptions& outputs,
               const std::function<PreparedRun()>& prepare) {
+    if (wish.patience > 0) ranks.setPatience(wish.patience);
     std::optional<PreparedRun> prepared;
     std::optional<std::string> wrong;
     try {
         prepared.emplace(prepare());
-        prepared->run.world().share(ranks, partition);
+        prepared->run.world().share(ranks, wish.partition);
     } catch (const InputError& error) {
         wrong = error.what();
     }
@@ -109,14 +117,16 @@ int runByMpi(const RanksWish& wish, const OutputOptions& outputs, const std::fun
                                 wish.count, ranks->size()),
                     wrong_use);
     }
-    if (wish.delay.per_message > 0 || wish.delay.per_byte > 0) {
+    if (wish.delay.per_message > 0 || wish.delay.per_byte > 0 || wish.delay.jitter > 0) {
         return tell("--message-delay is for ranks that are threads of one program; leave it out under mpirun",
                     wrong_use);
     }
     try {
-        return runShared(*ranks, wish.partition, outputs, prepare);
+        return runShared(*ranks, wish, outputs, prepare);
     } catch (const InputError& error) {
         return tell(error.what(), wrong_use);
+    } catch (const RankLateError& error) {
+        printError(error.what());
     } catch (const std::exception& error) {
         printError(fmt::format("rank {}: {}", ranks->rank(), error.what()));
     } catch (const ReaderGone&) {
@@ -139,8 +149,14 @@ void addRanksOptions(CLI::App& command, RanksOptions& options) {
         ->type_name("N");
     command
         .add_option("--message-delay", options.delay,
-                    "How late messages between ranks come, on purpose: microseconds each and nanoseconds per byte")
-        ->type_name("US,NS");
+                    "How late messages between ranks come, on purpose: microseconds each, nanoseconds per byte, and "
+                    "up to so many microseconds more, by chance")
+        ->type_name("US,NS[,US]");
+    command
+        .add_option("--patience", options.patience,
+                    "Seconds that a rank waits for another before all end, and it says for whom; 0 = for ever; "
+                    "default: 600")
+        ->type_name("SECONDS");
 }
 
 int runOnRanks(const RanksOptions& options, const OutputOptions& outputs, const std::function<PreparedRun()>& prepare) {
@@ -157,7 +173,7 @@ int runOnRanks(const RanksOptions& options, const OutputOptions& outputs, const 
     }
     int exit_code = run_failed;
     const auto work = [&](Ranks& ranks) {
-        const int code = runShared(ranks, wish.partition, outputs, prepare);
+        const int code = runShared(ranks, wish, outputs, prepare);
         if (ranks.rank() == 0) exit_code = code;
     };
     runRanks(wish.count, work, wish.delay);

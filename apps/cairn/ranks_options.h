@@ -15,9 +15,11 @@ struct RanksOptions {
     std::string partition;
     std::string delay;
     std::int64_t rebalance_every = 0;
+    double patience = 600;  ///< [s]; 0 = for ever
 };
 
-/// Adds --ranks, --partition, --rebalance-every and --message-delay. @param options must outlive the command
+/// Adds --ranks, --partition, --rebalance-every, --message-delay and --patience. @param options must outlive the
+/// command
 void addRanksOptions(CLI::App& command, RanksOptions& options);
 
 /// A run, and where its checkpoints go if the option names no file.

@@ -31,10 +31,11 @@ struct Report {
     std::optional<RanksReport> ranks;                 ///< of a run that ranks shared
 };
 
-/// Dynamic bodies that were fixed by a fault, or whose centre is inside a fixed half-space at the end.
+/// Dynamic bodies of this rank that were fixed by a fault, or whose centre is inside a fixed half-space at the end.
 std::size_t countLost(const SceneRun& run);
 
-Report makeReport(const SceneRun& run, const Measurements& measurements);
+/// @param sums of the whole world @pre the number of lost bodies is filled in afterwards
+Report makeReport(const SceneRun& run, const Measurements& measurements, const WorldSums& sums);
 std::string formatTable(const Report& report);
 nlohmann::ordered_json toJson(const Report& report);
 

@@ -38,18 +38,23 @@ class Runner {
         if (auto option = parseCheckpoint(options.checkpoint, usual_checkpoint)) checkpoints_.emplace(*option);
         hashed_ = options.hashes;
         records_ = !options.record.empty();
+        counts_ = !options.stats.empty();
         const double steps = run_.world().settings().steps_per_second;
         recorded_.frame_rate = options.frame_rate;
         recorded_.hashes_per_frame = static_cast<std::size_t>(hashed_ ? std::lround(steps / options.frame_rate) : 0);
         recorded_.contacts = options.record_contacts;
         recorded_.joints = options.record_joints;
-        counts_whole_ = !options.stats.empty();
-        if (!together_.isFirst()) return;
-        // A place that cannot be written is told now and not after the first hours.
-        if (checkpoints_) checkpoints_->write(run_);
-        if (records_) recording_.emplace(options.record, run_.scene(), run_.world().settings(), recorded_);
-        if (counts_whole_) stats_.emplace(options.stats, run_.world().settings());
+        if (records_ && together_.isShared()) {
+            recorded_.parts = together_.size();
+            const auto now = std::chrono::system_clock::now().time_since_epoch();
+            recorded_.mark = together_.numberOfFirst(
+                static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count()));
+        }
+        openOutputs(options);
     }
+
+    /// @return what cannot be written, so that nothing is to be simulated
+    std::optional<std::string> problem() { return together_.firstOf(failure_); }
 
     /// @return why the run ended early, if it did. What failed is an output or a body; wrong events throw InputError
     std::optional<std::string> simulate(Progress::Wish progress_wish) {
@@ -60,19 +65,21 @@ class Runner {
         Progress progress(duration, progress_wish);
         record();
         for (std::int64_t left = std::max<std::int64_t>(all, 1) - done; left > 0; --left) {
-            if (const auto end = together_.firstOf(failure_)) return end;
+            if (const auto end = together_.firstOf(failure_)) return afterFailure(*end);
             if (together_.anywhere(interrupted())) return interruption();
             step();
             if (!failure_ && !run_.world().faults().empty()) {
                 failure_ = describeFault(run_, run_.world().faults().front());
             }
-            if (checkpoints_ && !failure_ && together_.anywhere(together_.isFirst() && checkpoints_->isDue())) {
+            if (checkpoints_ && together_.anywhere(together_.isFirst() && checkpoints_->isDue()) &&
+                !together_.anywhere(failure_.has_value())) {
                 writeCheckpoint();
             }
             progress.update(run_.world().time());
         }
         tryTo([&] {
             if (recording_) recording_->close();
+            if (part_) part_->close();
         });
         return together_.firstOf(failure_);
     }
@@ -80,29 +87,60 @@ class Runner {
     /// To be called by all ranks, on the first one for what it tells.
     Report report() {
         const std::optional<RanksReport> ranks = together_.report();
-        run_.world().gather();
+        // Who failed is known to one rank.
+        if (together_.anywhere(!run_.world().faults().empty())) run_.world().gather();
+        const WorldSums sums = run_.world().sums();
+        const std::size_t lost = together_.sum(countLost(run_));
         if (!together_.isFirst()) return {};
-        Report report = makeReport(run_, measurements_);
+        Report report = makeReport(run_, measurements_, sums);
+        report.lost = lost;
         report.ranks = ranks;
         return report;
     }
 
   private:
-    /// Writes an output of the first rank. What fails ends the run, on all ranks, when they agree on that next.
+    /// Writes outputs of this rank. What fails ends the run, on all ranks, when they agree on that next.
     template <class Work>
     void tryTo(const Work& work) {
-        if (failure_ || !together_.isFirst()) return;
+        if (failure_) return;
         try {
             work();
         } catch (const IoError& error) {
             failure_ = error.what();
+            is_output_ = true;
         }
     }
 
+    /// A place that cannot be written is told now and not after the first hours.
+    void openOutputs(const OutputOptions& options) {
+        const Settings& settings = run_.world().settings();
+        if (checkpoints_) writeCheckpoint();
+        tryTo([&] {
+            if (records_ && together_.isFirst()) {
+                recording_.emplace(options.record, run_.scene(), settings, recorded_);
+            }
+            if (records_ && together_.isShared()) part_.emplace(options.record, together_.rank(), recorded_);
+            if (counts_ && together_.isFirst()) stats_.emplace(options.stats, settings);
+        });
+    }
+
+    /// All ranks write it, and it fails on all if it fails on one.
     void writeCheckpoint() {
-        run_.world().gather();
         tryTo([&] { checkpoints_->write(run_); });
     }
+
+    /// When an output failed, the run is kept as it is, so that it can go on when there is room again.
+    std::string afterFailure(const std::string& text) {
+        if (!checkpoints_ || !together_.anywhere(is_output_)) return text;
+        try {
+            checkpoints_->write(run_);
+        } catch (const IoError&) {
+            return text;
+        }
+        return text + "; " + remedy();
+    }
+
+    std::string remedy() const { return fmt::format("'cairn resume {}' goes on", checkpoints_->file().string()); }
 
     /// A simulation step of 1/30 s; frames are recorded within it, too.
     void step() {
@@ -113,11 +151,12 @@ class Runner {
             sum.add(run_.world().statistics());
             if (records_ && isFrameDue(run_, recorded_.frame_rate)) record();
         }
-        if (counts_whole_) run_.world().gather();
-        sum = together_.total(sum, run_.world());
+        if (together_.isShared()) sum = together_.total(sum, run_.world().meanOverlap());
         measurements_.add(ms, sum);
+        if (!counts_) return;
+        const WorldSums sums = run_.world().sums();
         tryTo([&] {
-            if (stats_) stats_->add(run_.world(), ms, sum);
+            if (stats_) stats_->add(run_.world(), ms, sum, sums);
         });
     }
 
@@ -133,12 +172,25 @@ class Runner {
 
     void record() {
         if (!records_) return;
-        run_.world().gather();
-        const Statistics since = together_.total(std::exchange(since_frame_, {}), run_.world());
+        const Statistics own = std::exchange(since_frame_, {});
+        if (!together_.isShared()) {
+            tryTo([&] {
+                Frame frame = captureFrame(run_, own, recorded_);
+                frame.step_hashes = std::exchange(hashes_, {});
+                recording_->append(frame);
+            });
+            return;
+        }
+        const WorldSums sums = run_.world().sums();
+        Frame frame;
+        frame.time = run_.world().time();
+        frame.statistics = together_.total(own, sums.mean_overlap);
+        frame.kinetic_energy = sums.kinetic_energy;
+        frame.potential_energy = sums.potential_energy;
+        frame.step_hashes = std::exchange(hashes_, {});
         tryTo([&] {
-            Frame frame = captureFrame(run_, since, recorded_);
-            frame.step_hashes = std::exchange(hashes_, {});
-            recording_->append(frame);
+            part_->append(captureFramePart(run_, recorded_));
+            if (recording_) recording_->append(frame);
         });
     }
 
@@ -147,20 +199,22 @@ class Runner {
         if (!checkpoints_) return text;
         writeCheckpoint();
         if (const auto end = together_.firstOf(failure_)) return *end;
-        return text + fmt::format("; 'cairn resume {}' goes on", checkpoints_->file().string());
+        return text + "; " + remedy();
     }
 
     SceneRun run_;
     Together together_;
     std::optional<std::string> failure_;  ///< that ends the run
+    bool is_output_ = false;              ///< that failed
     std::optional<Checkpointer> checkpoints_;
     std::optional<RecordingWriter> recording_;
+    std::optional<RecordingPartWriter> part_;  ///< of a run that ranks share
     std::optional<StatsCsv> stats_;
     RecordingOptions recorded_;
     Measurements measurements_;
     bool hashed_ = false;
-    bool records_ = false;               ///< also on the ranks that do not write
-    bool counts_whole_ = false;          ///< statistics are written
+    bool records_ = false;
+    bool counts_ = false;                ///< statistics are written, by the first rank
     std::vector<std::uint64_t> hashes_;  ///< of the time steps since the last frame
     Statistics since_frame_;             ///< of the same
 };
@@ -225,6 +279,10 @@ int runToTheEnd(SceneRun run, const OutputOptions& options, const std::filesyste
     const Settings settings = run.world().settings();
     const bool tells = ranks == nullptr || ranks->rank() == 0;
     Runner runner(std::move(run), options, usual_checkpoint, ranks);
+    if (const auto problem = runner.problem()) {
+        if (tells) printError(*problem);
+        return run_failed;
+    }
     if (tells) warnOfLongSteps(settings);
     noteInterrupts();
     const bool shows = tells && !options.quiet && !options.json;

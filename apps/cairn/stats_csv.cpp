@@ -46,13 +46,13 @@ StatsCsv::StatsCsv(const std::filesystem::path& file, const Settings& settings) 
     file_.write(header(settings));
 }
 
-void StatsCsv::add(const World& world, double ms, const Statistics& step) {
+void StatsCsv::add(const World& world, double ms, const Statistics& step, const WorldSums& sums) {
     std::string text = fmt::format("{},{},{}", ++rows_, world.time(), ms);
     const auto out = std::back_inserter(text);
     for (const double stage : step.stage_ms) fmt::format_to(out, ",{}", stage);
     for (const Counter& counter : counters) fmt::format_to(out, ",{}", step.*counter.member);
-    fmt::format_to(out, ",{},{},{},{}", step.largest_overlap, step.mean_overlap, world.kineticEnergy(),
-                   world.potentialEnergy());
+    fmt::format_to(out, ",{},{},{},{}", step.largest_overlap, step.mean_overlap, sums.kinetic_energy,
+                   sums.potential_energy);
     if (world.settings().diagnostics.diagnostics) {
         Diagnostics diagnostics = step.diagnostics;
         for (const DiagnosticsField& field : diagnosticsFields()) fmt::format_to(out, ",{}", field.of(diagnostics));

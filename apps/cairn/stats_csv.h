@@ -11,8 +11,8 @@ class StatsCsv {
   public:
     /// @param settings whose diagnostics add columns @throws IoError
     StatsCsv(const std::filesystem::path& file, const Settings& settings);
-    /// @param ms wall time of the simulation step [ms] @throws IoError
-    void add(const World& world, double ms, const Statistics& step);
+    /// @param ms wall time of the simulation step [ms] @param sums of the whole world @throws IoError
+    void add(const World& world, double ms, const Statistics& step, const WorldSums& sums);
 
   private:
     TextFile file_;

@@ -23,21 +23,6 @@ std::vector<Value> gather(Ranks& ranks, const Value& own) {
     return all;
 }
 
-struct Overlaps {
-    std::int64_t count = 0;
-    double sum = 0;  ///< [m]
-};
-
-Overlaps overlapsOf(const World& world) {
-    Overlaps overlaps;
-    for (const ContactInfo& contact : world.contacts()) {
-        if (contact.distance >= 0) continue;
-        ++overlaps.count;
-        overlaps.sum -= contact.distance;
-    }
-    return overlaps;
-}
-
 }  // namespace
 
 bool Together::anywhere(bool here) {
@@ -55,20 +40,15 @@ std::optional<std::string> Together::firstOf(const std::optional<std::string>& o
     return std::nullopt;
 }
 
-Statistics Together::total(const Statistics& own, const World& world) {
+Statistics Together::total(const Statistics& own, double mean_overlap) {
     if (ranks_ == nullptr) return own;
     Statistics sum = sumOverRanks(*ranks_, own);
-    if (!world.isDivided()) {
-        sum.mean_overlap = world.statistics().mean_overlap;
-        return sum;
-    }
-    Overlaps all;
-    for (const Overlaps& one : gather(*ranks_, overlapsOf(world))) {
-        all.count += one.count;
-        all.sum += one.sum;
-    }
-    sum.mean_overlap = all.count > 0 ? all.sum / static_cast<double>(all.count) : 0;
+    sum.mean_overlap = mean_overlap;
     return sum;
+}
+
+std::uint64_t Together::numberOfFirst(std::uint64_t own) {
+    return ranks_ == nullptr ? own : gather(*ranks_, own).front();
 }
 
 std::uint64_t Together::hash(const World& world) {

@@ -9,10 +9,14 @@ namespace cairn {
 
 /// Writes a run to a file. Whatever happens, the file is complete afterwards: the new one, or the one before it if this
 /// throws, the program is killed or the power fails.
-/// @throws IoError if it cannot be written, for example because the disk is full
+///
+/// Of a world that ranks share it is to be called by all of them, who need the same folder: each writes what it has
+/// into the folder FILE.parts, and when all have done so FILE names these parts. Nothing is gathered.
+/// @throws IoError if it cannot be written, for example because the disk is full; on all ranks if it is so on one
 void writeCheckpoint(const SceneRun& run, const std::filesystem::path& file);
 
-/// @throws IoError if it cannot be read; InputError with the offset if it is damaged or no checkpoint
+/// Reads what one or more ranks wrote; the world is whole then. @throws IoError if it cannot be read; InputError with
+/// the offset if it is damaged or no checkpoint
 SceneRun readCheckpoint(const std::filesystem::path& file);
 
 }  // namespace cairn

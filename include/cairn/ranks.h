@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string_view>
@@ -28,6 +29,12 @@ class RankLostError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Another rank did not answer for longer than this one was to wait; the text says which.
+class RankLateError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
 /// Who simulates together, as one of them sees it. Every call of exchange() is made by all ranks, in the same order.
 class Ranks {
   public:
@@ -41,8 +48,12 @@ class Ranks {
     int rank() const { return rank_; }  ///< 0 to size() − 1
     int size() const { return size_; }
     /// Sends a message to every rank, an empty one where there is nothing to say, and waits for theirs. The one to
-    /// itself a rank gets as it is. @param out [ranks] @return [ranks] @throws RankLostError if another rank failed
+    /// itself a rank gets as it is. @param out [ranks] @return [ranks] @throws RankLostError if another rank failed,
+    /// RankLateError if one did not answer in time
     Messages exchange(Messages out);
+    /// How long this rank waits for others in one round; for ever at first. @param seconds [s], > 0, or infinite
+    /// @throws InputError
+    void setPatience(double seconds);
     const Traffic& traffic() const { return traffic_; }
     /// Ends all ranks, after an error that only this one knows of: those that wait get a RankLostError, or the program
     /// ends. @param exit_code of the program, where ranks are programs
@@ -52,9 +63,13 @@ class Ranks {
     Ranks(int rank, int size) : rank_(rank), size_(size) {}
     /// The messages of the other ranks; the one to itself is left out.
     virtual void deliver(Messages& out, Messages& in) = 0;
+    double patience() const { return patience_; }  ///< [s]
+    /// @param late ranks that did not answer @throws RankLateError, always
+    [[noreturn]] void tellLate(const std::vector<int>& late) const;
 
   private:
     int rank_, size_;
+    double patience_ = std::numeric_limits<double>::infinity();
     Traffic traffic_;
 };
 
@@ -62,6 +77,7 @@ class Ranks {
 struct MessageDelay {
     double per_message = 0;  ///< [s], ≥ 0
     double per_byte = 0;     ///< [s], ≥ 0
+    double jitter = 0;       ///< up to so much more, another time for each message [s], ≥ 0
 };
 
 /// Runs some work on so many ranks that are threads of this program, and returns when all have ended it. Where some
@@ -96,8 +112,9 @@ struct Partition {
 /// The kind with a name: boxes, x, y, z or hash. @throws InputError for another name; the text names all
 PartitionKind partitionNamed(std::string_view name);
 
-/// What all ranks counted: the sums of numbers, the largest sizes, and the times of the slowest; without the mean
-/// overlap, which is World::statistics() after World::gather(). To be called by all ranks. @param own of this rank
+/// What all ranks counted: the sums of numbers, the largest sizes, the times of the slowest, and the diagnostics, which
+/// are of the whole world already; without the mean overlap, which stands in World::sums(). To be called by all ranks.
+/// @param own of this rank
 Statistics sumOverRanks(Ranks& ranks, const Statistics& own);
 /// The sum of a number of every rank, modulo 2⁶⁴: of World::stateHash() it is that of the whole world.
 std::uint64_t sumOverRanks(Ranks& ranks, std::uint64_t own);

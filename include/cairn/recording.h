@@ -41,6 +41,29 @@ struct Frame {
     std::vector<Vec3> joint_torque;  ///< that A received besides [N·m, W]
 };
 
+/// What one rank has of a frame: some of the bodies, contacts and joints of the scene.
+struct FramePart {
+    double time = 0;                    ///< [s]
+    std::vector<std::int64_t> body;     ///< indices in Scene::bodies, ascending; the next arrays have an entry for each
+    std::vector<Vec3> position;         ///< as in Frame, and so are all that follow
+    std::vector<Quat> orientation;      ///< B to W
+    std::vector<Vec3> linear_velocity;  ///< [m/s, W]
+    std::vector<Vec3> angular_velocity;  ///< [rad/s, W]
+    std::vector<std::uint8_t> asleep;    ///< 1 = asleep
+
+    std::vector<std::int64_t> contact_a;   ///< index in Scene::bodies
+    std::vector<std::int64_t> contact_b;   ///< index in Scene::bodies
+    std::vector<Vec3> contact_point;       ///< [m, W]
+    std::vector<Vec3> contact_normal;      ///< unit, from B to A, W
+    std::vector<double> contact_distance;  ///< along the normal [m]
+    std::vector<Vec3> contact_impulse;     ///< [N·s, W]
+
+    std::vector<std::int64_t> joint;  ///< indices in Scene::joints, ascending; the next arrays have an entry for each
+    std::vector<Vec3> joint_point;    ///< [m, W]
+    std::vector<Vec3> joint_force;    ///< [N, W]
+    std::vector<Vec3> joint_torque;   ///< [N·m, W]
+};
+
 /// What is recorded besides the state of the bodies, and how often.
 struct RecordingOptions {
     std::size_t hashes_per_frame = 0;  ///< entries of Frame::step_hashes, so that each can be verified; 0 = none
@@ -48,6 +71,8 @@ struct RecordingOptions {
         simulation_steps_per_second;  ///< frames per simulated second, ≥ 0.001, at most one per time step
     bool contacts = false;            ///< contacts with their impulses
     bool joints = false;              ///< forces of joints
+    std::size_t parts = 0;   ///< files of ranks that have the bodies, contacts and joints; 0 = the recording has them
+    std::uint64_t mark = 0;  ///< of a recording in parts: the same number in all of them, and in those of no other
 };
 
 /// Whether a frame is to be taken after the last time step: it is the first that ended at a multiple of 1/frame_rate
@@ -56,6 +81,33 @@ bool isFrameDue(const SceneRun& run, double frame_rate);
 /// Takes the present state of a run. @param statistics of the time steps since the last frame @param what to take
 /// besides the bodies @pre no joint was removed before one of the scene
 Frame captureFrame(const SceneRun& run, const Statistics& statistics, const RecordingOptions& what = {});
+
+/// What this rank has at present of a run that ranks share; as long as the world is whole the first one has everything.
+/// @param what to take besides the bodies @pre as captureFrame()
+FramePart captureFramePart(const SceneRun& run, const RecordingOptions& what = {});
+
+/// The file of a rank that records beside the one that was named: of RUN.h5 it is RUN.rank3.h5.
+std::filesystem::path recordingPart(const std::filesystem::path& file, std::size_t rank);
+
+/// Writes what a rank has of a recording whose RecordingOptions::parts say so. Such a recording is read like any other,
+/// as long as its files are beside each other.
+class RecordingPartWriter {
+  public:
+    /// @param file that the recording is named by @throws IoError if the part cannot be written
+    RecordingPartWriter(const std::filesystem::path& file, std::size_t rank, const RecordingOptions& options);
+    ~RecordingPartWriter();
+    RecordingPartWriter(const RecordingPartWriter&) = delete;
+    RecordingPartWriter& operator=(const RecordingPartWriter&) = delete;
+
+    /// @throws InputError for arrays of other lengths than they need; IoError, for example when the disk is full
+    void append(const FramePart& frame);
+    /// Writes what is left and closes. @throws IoError
+    void close();
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
 
 /// Writes a recording; what was appended can be read while it is written and after a crash.
 class RecordingWriter {
@@ -90,6 +142,7 @@ struct RecordingInfo {
     double frame_rate = 0;             ///< frames per simulated second [1/s]
     bool contacts = false;             ///< whether frames have contacts
     bool joints = false;               ///< whether frames have the forces of joints
+    std::size_t parts = 0;             ///< files beside it that have bodies, contacts and joints; 0 = it has them
 };
 
 /// Reads a recording.
@@ -108,6 +161,10 @@ class RecordingReader {
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+/// Writes a recording in parts as one file. @param file of the new one, none of its own @throws InputError if it has no
+/// parts; IoError
+void mergeRecording(const RecordingReader& recording, const std::filesystem::path& file);
 
 /// Where a simulation left its recording.
 struct RecordingDifference {

@@ -221,6 +221,10 @@ class SceneRun {
     /// A run as it was saved. @param source shown in messages, such as the name of its file
     /// @throws InputError with the offset, for bytes that are truncated, damaged or too new
     static SceneRun restore(std::span<const std::byte> snapshot, std::string_view source = "snapshot");
+    /// As World::savePart(): what this rank has of a run whose world is divided.
+    std::vector<std::byte> savePart() const;
+    /// As World::restoreParts().
+    static SceneRun restoreParts(std::span<const SavedPart> parts);
 
   private:
     SceneRun(Scene scene, World world, std::vector<BodyId> ids, std::size_t next_event);

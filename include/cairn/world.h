@@ -24,6 +24,24 @@
 
 namespace cairn {
 
+/// What one rank saved.
+struct SavedPart {
+    std::vector<std::byte> bytes;  ///< of World::savePart() or SceneRun::savePart()
+    std::string source;            ///< for messages, such as the name of its file
+};
+
+/// Sums over all bodies, and over the contacts of the last step. They are rounded once, so that they have the same bits
+/// on any number of ranks.
+struct WorldSums {
+    double kinetic_energy = 0;             ///< [J]
+    double potential_energy = 0;           ///< [J], in the sum of the global accelerations, zero at the origin
+    Vec3 linear_momentum = Vec3::Zero();   ///< of all dynamic bodies [N·s, W]
+    Vec3 angular_momentum = Vec3::Zero();  ///< of all dynamic bodies about the origin [N·m·s, W]
+    double mean_overlap = 0;               ///< over the overlapping contacts [m]
+    std::int64_t asleep = 0;               ///< bodies
+    std::uint64_t state_hash = 0;          ///< World::stateHash()
+};
+
 /// How a body begins.
 struct BodyDescription {
     Shape shape = Sphere{};                ///< in its own frame
@@ -312,20 +330,30 @@ class World {
     /// Shares the world with other ranks, each of which has made the same one by the same calls. From the next step on
     /// every rank has a part of the bodies that move, with the bits that one rank would have; between steps it knows
     /// these and the fixed bodies only, and calls that change bodies or need all of them throw an InputError until
-    /// gather() is called. Sums, such as stateHash() or kineticEnergy(), and contacts() are then of what this rank has:
-    /// the state hashes of the ranks add up to that of the whole world.
-    /// @param ranks must outlive the world @throws InputError for diagnostics and events, which cannot be shared yet,
-    /// and for a grid that is not one for so many ranks
+    /// gather() is called. stateHash(), kineticEnergy() and the like, contacts() and statistics() are then of what this
+    /// rank has; sums(), events() and the diagnostics of statistics() are of the whole world, on all ranks.
+    /// @param ranks must outlive the world @throws InputError for a grid that is not one for so many ranks
     void share(Ranks& ranks, const Partition& partition = {});
     /// Gives all ranks all bodies, with contacts, statistics and faults of the whole world, until the next step; to be
     /// called by all of them, who may then do what they want as on one rank, if all do the same. Costs as much as
     /// sending the world to every rank. Does nothing in a world that is not divided.
     void gather();
     bool isDivided() const noexcept;  ///< whether bodies are missing that other ranks have
+    Ranks* ranks() const noexcept;    ///< that share the world; null = it is on one
+    /// Whether a body, or a joint, is here, and counts as this rank's: of what is on all ranks the first one's. Each is
+    /// own on one rank; without other ranks what is there is own.
+    bool isOwn(BodyId id) const noexcept;
+    bool isOwn(JointId id) const noexcept;
 
     // --- snapshots ---
     /// Everything that the world is, so that it goes on bit by bit as it would have. @source docs/snapshots.md
     std::vector<std::byte> save() const;
+    /// What this rank has of a divided world, in bytes: the parts of all ranks are the world. @throws InputError for a
+    /// world that is not divided
+    std::vector<std::byte> savePart() const;
+    /// A whole world from the parts of all ranks, in their order; it may be shared again with any number of ranks.
+    /// @throws InputError naming part and offset if they are damaged or not those of one moment
+    static World restoreParts(std::span<const SavedPart> parts);
     /// As save(), into a buffer whose memory is used again.
     void saveTo(std::vector<std::byte>& buffer) const;
     /// A world as it was saved. @throws InputError with the offset, for bytes that are truncated, damaged or too new
@@ -376,7 +404,8 @@ class World {
     EventLevel eventLevel() const;
     /// What happened in the last step, in an order that does not depend on threads: contacts by (a, b), then sensors by
     /// (sensor, body), then bodies that woke and fell asleep, by id, then faults as in faults(), then joints that
-    /// broke, by id. Valid until the next step.
+    /// broke, by id. Valid until the next step. Of the whole world on all ranks that share it, which takes a message to
+    /// each in every step.
     std::span<const Event> events() const;
     double kineticEnergy() const;    ///< [J]
     double potentialEnergy() const;  ///< [J], in the sum of the global accelerations, zero at the origin
@@ -384,6 +413,10 @@ class World {
     Vec3 angularMomentum() const;    ///< of all dynamic bodies about the origin [N·m·s, W]
     /// A hash of the poses, velocities and sleeping states of all bodies; equal states have equal hashes.
     std::uint64_t stateHash() const;
+    /// Of a divided world those of all ranks, to be called by all of them; nothing but the sums is sent.
+    WorldSums sums() const;
+    /// WorldSums::mean_overlap alone, likewise [m].
+    double meanOverlap() const;
 
   private:
     explicit World(std::unique_ptr<WorldState> state);

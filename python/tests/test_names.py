@@ -43,9 +43,13 @@ WITHOUT: dict[str, str] = {
     "World.contactsTo": "World.contacts()",
     "World.bodyViews": "World.bodies",
     "World.contains": "id in world",
-    **dict.fromkeys(("Ranks", "Traffic", "RankLostError", "MessageDelay", "Partition", "PartitionKind"), "ranks are for programs in C++"),
+    **dict.fromkeys(("Ranks", "Traffic", "RankLostError", "RankLateError", "MessageDelay", "Partition", "PartitionKind"), "ranks are for programs in C++"),
     **dict.fromkeys(("runRanks", "mpiRanks", "isStartedByMpi", "partitionNamed", "sumOverRanks"), "likewise"),
-    **dict.fromkeys(("World.share", "World.gather", "World.isDivided"), "likewise"),
+    **dict.fromkeys(("World.share", "World.gather", "World.isDivided", "World.sums", "World.meanOverlap", "WorldSums", "World.ranks"), "likewise"),
+    **dict.fromkeys(("SavedPart", "World.savePart", "World.restoreParts", "SceneRun.savePart", "SceneRun.restoreParts"), "likewise"),
+    **dict.fromkeys(("World.isOwn", "FramePart", "captureFramePart", "RecordingPartWriter", "recordingPart"), "likewise"),
+    **dict.fromkeys(("RecordingOptions.parts", "RecordingOptions.mark", "RecordingInfo.parts"), "likewise"),
+    "mergeRecording": "cairn merge",
 }
 
 # What Python has besides: whole runs, arrays of all frames, and what C++ says in another way.

@@ -57,15 +57,11 @@ void NearPairs::begin(std::span<const Contact> contacts) {
     kind_.clear();
 }
 
-void NearPairs::drop(std::span<const std::uint8_t> others, std::vector<BodyPair>& touching) {
+void NearPairs::drop(std::span<const std::uint8_t> others) {
     for (std::size_t i = 0; i < std::min(others.size(), kind_.size()); ++i) {
         if (others[i] != 0) kind_[i] = BodyKind::hole;
     }
-    std::erase_if(pairs_, [&](const ContactPair& pair) {
-        const bool drops = (others[pair.a] | others[pair.b]) != 0;
-        if (drops && pair.touches()) touching.push_back(pair);
-        return drops;
-    });
+    std::erase_if(pairs_, [&](const ContactPair& pair) { return (others[pair.a] | others[pair.b]) != 0; });
 }
 
 void NearPairs::replace(std::span<const std::uint8_t> left, std::vector<ContactPair>& pairs) {
@@ -85,7 +81,7 @@ void NearPairs::dropLeft() {
         while (next < new_pairs_.size() && new_pairs_[next] < pair) new_pairs_[kept++] = new_pairs_[next++];
         const bool found = next < new_pairs_.size() && new_pairs_[next] == pair;
         if (found) ++next;
-        return !found && !pair.touched;
+        return !found;
     });
     const auto rest = std::move(new_pairs_.begin() + static_cast<std::ptrdiff_t>(next), new_pairs_.end(),
                                 new_pairs_.begin() + static_cast<std::ptrdiff_t>(kept));

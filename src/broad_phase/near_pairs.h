@@ -11,11 +11,10 @@
 namespace cairn {
 
 /// Two bodies near each other and their contacts, which stand side by side. It lives as long as the bounds that the two
-/// were searched with overlap, and until the end of the step in which they part.
+/// were searched with overlap.
 struct ContactPair : BodyPair {
     std::uint32_t first = 0;         ///< index of the first contact of the last detection
     std::uint32_t count = untested;  ///< number of contacts
-    bool touched = false;            ///< at the end of the last step
     bool ahead = false;              ///< the contacts depend on velocities: a body of the pair was looked ahead for
 
     /// Stands for the number before the first test.
@@ -46,8 +45,8 @@ class NearPairs {
     /// pairs of the contacts. @param contacts sorted by (a, b)
     void begin(std::span<const Contact> contacts);
     /// To be called when some bodies are others: drops their pairs.
-    /// @param others [slots] 1 = its body is another, or gone @param touching gets those that touch, in their order
-    void drop(std::span<const std::uint8_t> others, std::vector<BodyPair>& touching);
+    /// @param others [slots] 1 = its body is another, or gone
+    void drop(std::span<const std::uint8_t> others);
     /// To be called when some bodies left and others came, which the next update searches.
     /// @param left [slots] 1 = the slot's body left @param pairs sorted, none of bodies that left; out: kept memory
     void replace(std::span<const std::uint8_t> left, std::vector<ContactPair>& pairs);

@@ -10,13 +10,15 @@
 
 #include "cairn/ranks.h"
 #include "cairn/types.h"
+#include "math/exact_sum.h"
 
 namespace cairn {
 
 /// What may be sent byte by byte: numbers, structures of numbers, and Eigen's fixed vectors, which hold nothing else.
+/// Exact sums are shorter when only their digits are sent.
 template <class T>
-concept Sendable =
-    std::is_trivially_copyable_v<T> || std::is_same_v<T, Vec3> || std::is_same_v<T, Mat3> || std::is_same_v<T, Quat>;
+concept Sendable = (std::is_trivially_copyable_v<T> && !std::is_same_v<T, ExactSum>) || std::is_same_v<T, Vec3> ||
+                   std::is_same_v<T, Mat3> || std::is_same_v<T, Quat>;
 
 /// Appends a value to a message.
 template <Sendable T>
@@ -24,6 +26,15 @@ void pack(std::vector<std::byte>& message, const T& value) {
     const std::size_t end = message.size();
     message.resize(end + sizeof(T));
     std::memcpy(message.data() + end, static_cast<const void*>(&value), sizeof(T));
+}
+
+inline void pack(std::vector<std::byte>& message, const ExactSum& sum) {
+    const ExactDigits sent = sum.digits();
+    pack(message, sent.first);
+    pack(message, sent.count);
+    pack(message, sent.negative);
+    pack(message, sent.not_finite);
+    for (std::size_t i = 0; i < sent.count; ++i) pack(message, sent.digits[i]);
 }
 
 /// Reads a message from its beginning.
@@ -40,6 +51,17 @@ class Unpacker {
         std::memcpy(static_cast<void*>(&value), left_.data(), sizeof(T));
         left_ = left_.subspan(sizeof(T));
         return value;
+    }
+
+    ExactDigits getSum() {
+        ExactDigits sent;
+        sent.first = get<std::uint8_t>();
+        sent.count = get<std::uint8_t>();
+        sent.negative = get<bool>();
+        sent.not_finite = get<double>();
+        if (sent.first + std::size_t{sent.count} > sent.digits.size()) throw std::logic_error("messages: no sum");
+        for (std::size_t i = 0; i < sent.count; ++i) sent.digits[i] = get<std::uint32_t>();
+        return sent;
     }
 
   private:

@@ -1,6 +1,6 @@
 #include "cairn/ranks.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <array>
 #include <chrono>
@@ -25,6 +25,16 @@ Ranks::Messages Ranks::exchange(Messages out) {
     deliver(out, in);
     traffic_.waiting += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return in;
+}
+
+void Ranks::setPatience(double seconds) {
+    if (!(seconds > 0)) throw InputError(fmt::format("a patience of {} s; it must be above 0", seconds));
+    patience_ = seconds;
+}
+
+void Ranks::tellLate(const std::vector<int>& late) const {
+    throw RankLateError(fmt::format("rank {} waited {} s for {} {}, in round {}, and gave up", rank_, patience_,
+                                    late.size() == 1 ? "rank" : "ranks", fmt::join(late, ", "), traffic_.rounds));
 }
 
 PartitionKind partitionNamed(std::string_view name) {

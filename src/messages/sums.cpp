@@ -1,4 +1,5 @@
-/// @file What ranks add up.
+#include "messages/sums.h"
+
 #include <algorithm>
 #include <array>
 #include <tuple>
@@ -23,6 +24,14 @@ constexpr std::array counts = {&Statistics::contacts,
 
 }  // namespace
 
+void addRank(Statistics& sum, const Statistics& other) {
+    for (const auto count : counts) sum.*count += other.*count;
+    sum.largest_batch = std::max(sum.largest_batch, other.largest_batch);
+    sum.largest_overlap = std::max(sum.largest_overlap, other.largest_overlap);
+    for (std::size_t i = 0; i < stage_count; ++i) sum.stage_ms[i] = std::max(sum.stage_ms[i], other.stage_ms[i]);
+    sum.diagnostics = other.diagnostics;
+}
+
 Statistics sumOverRanks(Ranks& ranks, const Statistics& own) {
     std::vector<std::byte> message;
     for (const auto count : counts) pack(message, own.*count);
@@ -32,12 +41,14 @@ Statistics sumOverRanks(Ranks& ranks, const Statistics& own) {
     Statistics sum;
     for (const auto& told : tellAll(ranks, message)) {
         Unpacker in(told);
-        for (const auto count : counts) sum.*count += in.get<std::int64_t>();
-        sum.largest_batch = std::max(sum.largest_batch, in.get<std::int64_t>());
-        sum.largest_overlap = std::max(sum.largest_overlap, in.get<double>());
-        const auto stage_ms = in.get<std::array<double, stage_count>>();
-        for (std::size_t i = 0; i < stage_count; ++i) sum.stage_ms[i] = std::max(sum.stage_ms[i], stage_ms[i]);
+        Statistics other;
+        for (const auto count : counts) other.*count = in.get<std::int64_t>();
+        other.largest_batch = in.get<std::int64_t>();
+        other.largest_overlap = in.get<double>();
+        other.stage_ms = in.get<std::array<double, stage_count>>();
+        addRank(sum, other);
     }
+    sum.diagnostics = own.diagnostics;
     return sum;
 }
 

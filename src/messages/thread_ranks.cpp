@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -64,7 +65,8 @@ class ThreadRanks final : public Ranks {
         for (std::size_t to = 0; to < out.size(); ++to) {
             if (to == own) continue;
             const std::chrono::duration<double> late(post_.delay.per_message +
-                                                     post_.delay.per_byte * static_cast<double>(out[to].size()));
+                                                     post_.delay.per_byte * static_cast<double>(out[to].size()) +
+                                                     post_.delay.jitter * draw());
             const auto due = Clock::now() + std::chrono::duration_cast<Clock::duration>(late);
             Mailbox& box = post_.boxes[to];
             const std::lock_guard lock(box.mutex);
@@ -73,13 +75,25 @@ class ThreadRanks final : public Ranks {
         }
         Mailbox& box = post_.boxes[own];
         for (std::size_t from = 0; from < in.size(); ++from) {
-            if (from != own) in[from] = take(box, box.from[from]);
+            if (from != own) in[from] = take(box, static_cast<int>(from));
         }
     }
 
-    std::vector<std::byte> take(Mailbox& box, std::deque<Letter>& letters) const {
+    /// Between 0 and 1, by the generator of Knuth and Lewis.
+    double draw() {
+        drawn_ = drawn_ * 1664525U + 1013904223U;
+        return static_cast<double>(drawn_) / 4294967296.0;
+    }
+
+    std::vector<std::byte> take(Mailbox& box, int from) const {
+        std::deque<Letter>& letters = box.from[static_cast<std::size_t>(from)];
         std::unique_lock lock(box.mutex);
-        box.arrived.wait(lock, [&] { return !letters.empty() || box.lost; });
+        const auto is_over = [&] { return !letters.empty() || box.lost; };
+        if (!std::isfinite(patience())) {
+            box.arrived.wait(lock, is_over);
+        } else if (!box.arrived.wait_for(lock, std::chrono::duration<double>(patience()), is_over)) {
+            tellLate({from});
+        }
         if (letters.empty()) {
             throw RankLostError(fmt::format("rank {} ended before the others", post_.first_lost.load()));
         }
@@ -91,6 +105,7 @@ class ThreadRanks final : public Ranks {
     }
 
     Post& post_;
+    std::uint32_t drawn_ = static_cast<std::uint32_t>(rank());
 };
 
 }  // namespace
@@ -99,8 +114,8 @@ void runRanks(int count, const std::function<void(Ranks&)>& work, const MessageD
     if (count < 1 || count > most_threads) {
         throw InputError(fmt::format("{} ranks; threads of one program can be 1 to {}", count, most_threads));
     }
-    if (!(delay.per_message >= 0 && delay.per_byte >= 0)) {
-        throw InputError("the delay of messages is negative; give two times that are not");
+    if (!(delay.per_message >= 0 && delay.per_byte >= 0 && delay.jitter >= 0)) {
+        throw InputError("the delay of messages is negative; give times that are not");
     }
     Post post(count, delay);
     std::vector<std::exception_ptr> failures(static_cast<std::size_t>(count));

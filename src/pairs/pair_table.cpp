@@ -122,9 +122,7 @@ Bounds searchedBounds(const BodyStorage& bodies, const DetectionRange& range, Bo
     return ahead.way;
 }
 
-void PairTable::beginStep(const BodyStorage& bodies, std::span<const std::uint32_t> generation,
-                          const Executor& executor) {
-    removed_.clear();
+void PairTable::beginStep(const BodyStorage& bodies, std::span<const std::uint32_t> generation) {
     others_.assign(bodies.slots(), 0);
     bool any = false;
     for (BodyIndex i = 0; i < generation.size(); ++i) {
@@ -132,11 +130,7 @@ void PairTable::beginStep(const BodyStorage& bodies, std::span<const std::uint32
         others_[i] = 1;
         any = true;
     }
-    if (any) near_pairs_.drop(others_, removed_);
-    const std::span<ContactPair> pairs = near_pairs_.pairs();
-    executor.forBlocks(pairs.size(), [&](std::size_t begin, std::size_t end, int) {
-        for (std::size_t i = begin; i < end; ++i) pairs[i].touched = pairs[i].touches();
-    });
+    if (any) near_pairs_.drop(others_);
 }
 
 void PairTable::detect(const PairsInput& input, std::vector<Contact>& contacts) {

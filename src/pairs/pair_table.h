@@ -42,9 +42,9 @@ Bounds searchedBounds(const BodyStorage& bodies, const DetectionRange& range, Bo
 /// begin with are matched afterwards.
 class PairTable {
   public:
-    /// Notes which pairs touch, and drops those of bodies that are no longer there.
+    /// Drops the pairs of bodies that are no longer there.
     /// @param generation [slots] of the bodies that the contacts of the last step are of
-    void beginStep(const BodyStorage& bodies, std::span<const std::uint32_t> generation, const Executor& executor);
+    void beginStep(const BodyStorage& bodies, std::span<const std::uint32_t> generation);
     /// Finds the contacts of all pairs where the bodies are now, as often in a step as bodies were displaced.
     /// @param contacts in: those of the last call, with the impulses that the next ones inherit in last_impulse and
     ///        reference_impulse; out: sorted by (a, b) @throws InputError beyond most_contacts
@@ -70,8 +70,6 @@ class PairTable {
 
     /// All of them, sorted by (a, b), whether they touch or not.
     std::span<const ContactPair> pairs() const { return near_pairs_.pairs(); }
-    /// Pairs that touched in the last step, of bodies that were removed since; sorted by (a, b).
-    std::span<const BodyPair> removed() const { return removed_; }
     /// [slots] grown by the margin, and by the way ahead with speculative contacts [m, W]; empty before the first
     /// detection.
     std::span<const Bounds> bounds() const { return bounds_; }
@@ -89,7 +87,6 @@ class PairTable {
     void addFirst(const Executor& executor);
 
     NearPairs near_pairs_;
-    std::vector<BodyPair> removed_;
     std::vector<std::uint8_t> others_;   ///< [slots] 1 = its body was removed since the last step
     bool known_ = false;                 ///< the contacts are those of the last detection
     DetectionRange range_;               ///< of the last detection

@@ -9,7 +9,9 @@ namespace {
 
 const Vec3 nowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
 
-void captureContacts(const SceneRun& run, Frame& frame) {
+/// @tparam AnyFrame Frame or FramePart
+template <class AnyFrame>
+void captureContacts(const SceneRun& run, AnyFrame& frame) {
     const std::vector<BodyId>& ids = run.ids();
     std::unordered_map<std::uint32_t, std::size_t> index;  // of the scene, by slot
     for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -76,6 +78,36 @@ Frame captureFrame(const SceneRun& run, const Statistics& statistics, const Reco
     if (what.contacts) captureContacts(run, frame);
     if (what.joints) captureJoints(run, frame);
     return frame;
+}
+
+FramePart captureFramePart(const SceneRun& run, const RecordingOptions& what) {
+    const World& world = run.world();
+    if (world.ranks() == nullptr)
+        throw InputError("a part of a frame is of a run that ranks share; use captureFrame()");
+    FramePart part;
+    part.time = world.time();
+    for (std::size_t i = 0; i < run.ids().size(); ++i) {
+        const BodyId id = run.ids()[i];
+        if (!world.isOwn(id)) continue;
+        const Pose pose = world.pose(id);
+        part.body.push_back(static_cast<std::int64_t>(i));
+        part.position.push_back(pose.position);
+        part.orientation.push_back(pose.orientation);
+        part.linear_velocity.push_back(world.linearVelocity(id));
+        part.angular_velocity.push_back(world.angularVelocity(id));
+        part.asleep.push_back(world.isAsleep(id) ? 1 : 0);
+    }
+    if (what.contacts && (world.isDivided() || world.ranks()->rank() == 0)) captureContacts(run, part);
+    for (std::size_t j = 0; what.joints && j < run.scene().joints.size(); ++j) {
+        const JointId id{static_cast<std::uint32_t>(j), 0};
+        if (!world.isOwn(id)) continue;
+        const JointInfo joint = world.joint(id);
+        part.joint.push_back(static_cast<std::int64_t>(j));
+        part.joint_point.push_back(joint.anchor_a);
+        part.joint_force.push_back(joint.force);
+        part.joint_torque.push_back(joint.torque);
+    }
+    return part;
 }
 
 }  // namespace cairn

@@ -1,15 +1,206 @@
 #include "cairn/checkpoint.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include "messages/packing.h"
 #include "record/atomic_file.h"
+#include "world/byte_stream.h"
 
 namespace cairn {
 
-void writeCheckpoint(const SceneRun& run, const std::filesystem::path& file) {
+namespace {
+
+/// How a file of a part is recognised.
+struct PartMark {
+    std::uint64_t size = 0;   ///< [bytes]
+    std::uint64_t check = 0;  ///< the last of its checksums
+};
+
+PartMark markOf(const std::vector<std::byte>& part) {
+    PartMark mark{part.size(), 0};
+    if (part.size() >= sizeof mark.check) {
+        std::memcpy(&mark.check, part.data() + part.size() - sizeof mark.check, sizeof mark.check);
+    }
+    return mark;
+}
+
+/// Where the parts of a checkpoint are: beside the file that names them.
+std::filesystem::path partsFolder(const std::filesystem::path& file) {
+    return file.string() + ".parts";
+}
+
+/// @param serial number of the checkpoint, so that a new one leaves the parts of the last alone
+std::filesystem::path partFile(const std::filesystem::path& file, std::uint64_t serial, std::size_t rank) {
+    return partsFolder(file) / fmt::format("{}.rank{}", serial, rank);
+}
+
+/// The number that a file of a part begins with; none if it is no such file.
+std::optional<std::uint64_t> serialOf(const std::filesystem::path& part) {
+    const std::string name = part.filename().string();
+    std::uint64_t serial = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), serial);
+    if (error != std::errc() || !std::string_view(end).starts_with(".rank")) return std::nullopt;
+    return serial;
+}
+
+/// Calls use(path, serial) for the files of parts that are there.
+template <class Use>
+void forParts(const std::filesystem::path& file, const Use& use) {
+    std::error_code absent;
+    for (const auto& entry : std::filesystem::directory_iterator(partsFolder(file), absent)) {
+        if (const auto serial = serialOf(entry.path())) use(entry.path(), *serial);
+    }
+}
+
+/// Removes the parts of other checkpoints. What cannot be removed does no harm.
+void removeOthers(const std::filesystem::path& file, std::optional<std::uint64_t> kept) {
+    std::error_code ignored;
+    std::vector<std::filesystem::path> others;
+    forParts(file, [&](const std::filesystem::path& part, std::uint64_t serial) {
+        if (serial != kept) others.push_back(part);
+    });
+    for (const std::filesystem::path& part : others) std::filesystem::remove(part, ignored);
+    if (!kept) std::filesystem::remove(partsFolder(file), ignored);
+}
+
+/// The number of the next checkpoint. @throws IoError if its folder cannot be made
+std::uint64_t beginParts(const std::filesystem::path& file) {
+    std::error_code error;
+    std::filesystem::create_directories(partsFolder(file), error);
+    if (error) {
+        throw IoError(fmt::format("{}: cannot be made: {}", partsFolder(file).string(), error.message()));
+    }
+    std::uint64_t last = 0;
+    forParts(file, [&](const std::filesystem::path&, std::uint64_t serial) { last = std::max(last, serial); });
+    return last + 1;
+}
+
+/// Lets all ranks do something; if it fails on one it fails on all, with the error of the lowest one.
+/// @return what each told
+template <class Value, class Work>
+std::vector<Value> together(Ranks& ranks, const Work& work) {
+    Value own{};
+    std::string problem;
+    try {
+        own = work();
+    } catch (const IoError& error) {
+        problem = error.what();
+    }
+    std::vector<std::byte> message;
+    pack(message, own);
+    for (const char letter : problem) pack(message, letter);
+    std::vector<Value> all;
+    std::string first;
+    for (const std::vector<std::byte>& told : tellAll(ranks, message)) {
+        Unpacker in(told);
+        all.push_back(in.get<Value>());
+        std::string text;
+        while (!in.isAtEnd()) text += in.get<char>();
+        if (first.empty()) first = text;
+    }
+    if (!first.empty()) throw IoError(first);
+    return all;
+}
+
+/// Writes which files a checkpoint consists of, which makes it the checkpoint.
+void writeNames(const std::filesystem::path& file, std::uint64_t serial, const std::vector<PartMark>& marks) {
+    std::vector<std::byte> bytes;
+    ByteWriter out(bytes, FrameKind::checkpoint);
+    out.put(serial);
+    out.put(std::uint64_t{marks.size()});
+    for (const PartMark& mark : marks) {
+        out.put(mark.size);
+        out.put(mark.check);
+    }
+    out.finish();
+    replaceFile(file, bytes);
+}
+
+/// Every rank writes its part; then the first one writes the file that names them.
+void writeParts(const SceneRun& run, const std::filesystem::path& file) {
+    Ranks& ranks = *run.world().ranks();
+    const bool is_first = ranks.rank() == 0;
+    const std::uint64_t serial =
+        together<std::uint64_t>(ranks, [&] { return is_first ? beginParts(file) : 0; }).front();
+    const std::filesystem::path part = partFile(file, serial, static_cast<std::size_t>(ranks.rank()));
+    try {
+        const std::vector<PartMark> marks = together<PartMark>(ranks, [&] {
+            const std::vector<std::byte> bytes = run.savePart();
+            replaceFile(part, bytes);
+            return markOf(bytes);
+        });
+        together<bool>(ranks, [&] {
+            if (is_first) writeNames(file, serial, marks);
+            return true;
+        });
+    } catch (const IoError&) {
+        std::error_code ignored;
+        std::filesystem::remove(part, ignored);
+        throw;
+    }
+    if (is_first) removeOthers(file, serial);
+}
+
+void writeWhole(const SceneRun& run, const std::filesystem::path& file) {
     replaceFile(file, run.save());
+    removeOthers(file, std::nullopt);
+}
+
+SceneRun readParts(const std::vector<std::byte>& names, const std::filesystem::path& file) {
+    ByteReader in(names, FrameKind::checkpoint, file.string());
+    const auto serial = in.get<std::uint64_t>();
+    const auto count = in.get<std::uint64_t>();
+    std::vector<SavedPart> parts;
+    for (std::size_t rank = 0; rank < count; ++rank) {
+        const auto size = in.get<std::uint64_t>();
+        const auto check = in.get<std::uint64_t>();
+        const std::filesystem::path part = partFile(file, serial, rank);
+        SavedPart& read = parts.emplace_back(SavedPart{{}, part.string()});
+        try {
+            read.bytes = readFile(part);
+        } catch (const IoError& error) {
+            throw IoError(fmt::format("{}; it is a part of the checkpoint '{}': copy the folder beside it, too",
+                                      error.what(), file.string()));
+        }
+        const PartMark mark = markOf(read.bytes);
+        if (mark.size != size || mark.check != check) {
+            throw InputError(
+                fmt::format("{} is not the part that '{}' names; copy file and folder of a checkpoint "
+                            "together",
+                            part.string(), file.string()));
+        }
+    }
+    in.finish();
+    return SceneRun::restoreParts(parts);
+}
+
+}  // namespace
+
+void writeCheckpoint(const SceneRun& run, const std::filesystem::path& file) {
+    Ranks* ranks = run.world().ranks();
+    if (ranks == nullptr) {
+        writeWhole(run, file);
+    } else if (run.world().isDivided()) {
+        writeParts(run, file);
+    } else {
+        together<bool>(*ranks, [&] {
+            if (ranks->rank() == 0) writeWhole(run, file);
+            return true;
+        });
+    }
 }
 
 SceneRun readCheckpoint(const std::filesystem::path& file) {
-    return SceneRun::restore(readFile(file), file.string());
+    const std::vector<std::byte> bytes = readFile(file);
+    if (frameKind(bytes) == FrameKind::checkpoint) return readParts(bytes, file);
+    return SceneRun::restore(bytes, file.string());
 }
 
 }  // namespace cairn

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,19 +30,28 @@ std::vector<Series> diagnosticsSeries(const File& file, const std::filesystem::p
     return series;
 }
 
-/// @tparam Series SeriesWriter or SeriesReader
+/// The states of all bodies. @tparam Series SeriesWriter or SeriesReader
 template <typename Series>
-struct FrameSeries {
+struct BodySeries {
     /// @param path of the file, for messages; must outlive this @throws IoError
-    FrameSeries(const File& file, const std::filesystem::path& path, hsize_t bodies)
-        : time(file, path, {layout::time, "s", Element::real, Storage::plain, {}}),
-          position(file, path, {layout::position, "m", Element::real, Storage::compressed, {bodies, 3}}),
+    BodySeries(const File& file, const std::filesystem::path& path, hsize_t bodies)
+        : position(file, path, {layout::position, "m", Element::real, Storage::compressed, {bodies, 3}}),
           orientation(file, path, {layout::orientation, "1", Element::real, Storage::compressed, {bodies, 4}}),
           linear_velocity(file, path,
                           {layout::linear_velocity, "m/s", Element::real, Storage::compressed, {bodies, 3}}),
           angular_velocity(file, path,
                            {layout::angular_velocity, "rad/s", Element::real, Storage::compressed, {bodies, 3}}),
-          asleep(file, path, {layout::asleep, "1", Element::flag, Storage::compressed, {bodies}}),
+          asleep(file, path, {layout::asleep, "1", Element::flag, Storage::compressed, {bodies}}) {}
+
+    Series position, orientation, linear_velocity, angular_velocity, asleep;
+};
+
+/// What all recordings have one of per frame. @tparam Series SeriesWriter or SeriesReader
+template <typename Series>
+struct FrameSeries {
+    /// @param path of the file, for messages; must outlive this @throws IoError
+    FrameSeries(const File& file, const std::filesystem::path& path)
+        : time(file, path, {layout::time, "s", Element::real, Storage::plain, {}}),
           kinetic_energy(file, path, {layout::kinetic_energy, "J", Element::real, Storage::plain, {}}),
           potential_energy(file, path, {layout::potential_energy, "J", Element::real, Storage::plain, {}}),
           stage_ms(file, path, {layout::stage_ms, "ms", Element::real, Storage::plain, {stage_count}}) {
@@ -57,16 +67,19 @@ struct FrameSeries {
     /// Calls visit for every series but time.
     template <typename Visit>
     void forEachButTime(const Visit& visit) {
-        for (Series* s : {&position, &orientation, &linear_velocity, &angular_velocity, &asleep, &kinetic_energy,
-                          &potential_energy, &stage_ms}) {
-            visit(*s);
+        if (bodies) {
+            for (Series* s : {&bodies->position, &bodies->orientation, &bodies->linear_velocity,
+                              &bodies->angular_velocity, &bodies->asleep}) {
+                visit(*s);
+            }
         }
+        for (Series* s : {&kinetic_energy, &potential_energy, &stage_ms}) visit(*s);
         for (Series& s : counters) visit(s);
         for (Series& s : overlaps) visit(s);
     }
 
     Series time;  ///< a frame is there once its time is, so it is written last and opened first
-    Series position, orientation, linear_velocity, angular_velocity, asleep;
+    std::optional<BodySeries<Series>> bodies;  ///< none in a recording whose parts have them
     Series kinetic_energy, potential_energy;
     Series stage_ms;
     std::vector<Series> counters, overlaps;

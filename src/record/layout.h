@@ -21,6 +21,12 @@ inline constexpr const char* machine_attribute = "machine";
 inline constexpr const char* rate_attribute = "frames_per_second";
 inline constexpr double least_frame_rate = 1e-3;  ///< [1/s]
 
+// Of a recording in parts: also attributes of the root groups of the parts, whose format is another.
+inline constexpr const char* parts_attribute = "parts";
+inline constexpr const char* mark_attribute = "mark";
+inline constexpr const char* rank_attribute = "rank";
+inline constexpr std::string_view part_format_name = "cairn recording part";
+
 inline constexpr const char* scene = "scene";        ///< the scene file's text
 inline constexpr const char* settings = "settings";  ///< a group with one attribute per field
 
@@ -45,6 +51,12 @@ inline constexpr const char* contact_point = "contacts/point";
 inline constexpr const char* contact_normal = "contacts/normal";
 inline constexpr const char* contact_distance = "contacts/distance";
 inline constexpr const char* contact_impulse = "contacts/impulse";
+
+// Of parts: rows of all frames, and where each frame's rows end.
+inline constexpr const char* bodies_end = "frames/end";
+inline constexpr const char* body = "frames/body";
+inline constexpr const char* joints_end = "joints/end";
+inline constexpr const char* joint = "joints/joint";
 
 inline constexpr const char* joints = "joints";  ///< a group; only if it was asked for
 inline constexpr const char* joint_point = "joints/point";

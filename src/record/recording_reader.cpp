@@ -9,41 +9,15 @@
 #include "record/file_check.h"
 #include "record/force_series.h"
 #include "record/frame_series.h"
+#include "record/part_reader.h"
 #include "record/recorded_settings.h"
+#include "record/recording_file.h"
 
 namespace cairn {
 
 namespace {
 
 using hdf5::checked;
-
-/// HDF5 reads metadata again when a writer was in the middle of it, and waits twice as long after each attempt, 1 ns
-/// first: this is an eighth of a second, in which also a writer on a busy machine gets its turn. Its own limit of 100
-/// attempts takes minutes on a truncated file.
-constexpr unsigned metadata_read_attempts = 27;
-
-hdf5::File openFile(const std::filesystem::path& path, const FileState& state) {
-    // A file that its writer did not close (yet) can only be opened as a reader beside a writer.
-    const unsigned flags = state.closed ? H5F_ACC_RDONLY : H5F_ACC_RDONLY | H5F_ACC_SWMR_READ;
-    const hdf5::Properties access(H5Pcreate(H5P_FILE_ACCESS), path, "cannot be opened");
-    checked(H5Pset_metadata_read_attempts(access.get(), metadata_read_attempts), path, "cannot be opened");
-    return hdf5::File(H5Fopen(path.c_str(), flags, access.get()), path,
-                      "is damaged, or its writer ended before the first frame");
-}
-
-void requireRecording(const hdf5::File& file, const std::filesystem::path& path) {
-    const auto format = hdf5::readAttribute(file.get(), path, layout::format_attribute);
-    if (format != SettingValue(std::string(layout::format_name))) {
-        throw IoError(fmt::format("{}: is an HDF5 file, but not a recording of Cairn", path.string()));
-    }
-    const auto format_version = hdf5::readAttribute(file.get(), path, layout::format_version_attribute);
-    if (format_version != SettingValue(layout::format_version)) {
-        throw IoError(
-            fmt::format("{}: is a recording in another format version than {}, which this Cairn reads; "
-                        "use the version of Cairn that wrote it",
-                        path.string(), layout::format_version));
-    }
-}
 
 Scene readRecordedScene(const hdf5::File& file, const std::filesystem::path& path) {
     const std::string text = hdf5::readText(file, path, layout::scene);
@@ -65,8 +39,8 @@ std::string textAttribute(const hdf5::File& file, const std::filesystem::path& p
 struct RecordingReader::Impl {
     explicit Impl(const std::filesystem::path& file_path) : path(file_path) {
         const FileState state = checkFile(path);
-        file = openFile(path, state);
-        requireRecording(file, path);
+        file = hdf5::openFile(path, state);
+        hdf5::requireFormat(file, path, layout::format_name);
         info.scene = readRecordedScene(file, path);
         info.bodies = info.scene.bodies.size();
         info.version = textAttribute(file, path, layout::version_attribute);
@@ -74,12 +48,18 @@ struct RecordingReader::Impl {
         info.settings = hdf5::readAttributes(
             hdf5::Group(H5Gopen2(file.get(), layout::settings, H5P_DEFAULT), path, "settings"), path);
         info.frame_rate = frameRate();
-        series.emplace(file, path, info.bodies);
+        series.emplace(file, path);
+        info.parts = hdf5::numberAttribute(file, path, layout::parts_attribute);
+        if (info.parts == 0) series->bodies.emplace(file, path, info.bodies);
         openHashes();
         if (H5Lexists(file.get(), layout::diagnostics, H5P_DEFAULT) > 0) {
             diagnostics = hdf5::diagnosticsSeries<hdf5::SeriesReader>(file, path);
         }
         openForces();
+        const std::uint64_t mark = hdf5::numberAttribute(file, path, layout::mark_attribute);
+        for (std::size_t rank = 0; rank < info.parts; ++rank) {
+            parts.push_back(std::make_unique<PartReader>(path, rank, mark, info));
+        }
         info.frames = countFrames();
         if (!state.closed) requireAllInFile();
         quaternions.resize(info.bodies);
@@ -103,11 +83,23 @@ struct RecordingReader::Impl {
     }
 
     void openForces() {
-        if (H5Lexists(file.get(), layout::contacts, H5P_DEFAULT) > 0) contacts.emplace(file, path);
-        if (H5Lexists(file.get(), layout::joints, H5P_DEFAULT) > 0)
-            joints.emplace(file, path, info.scene.joints.size());
-        info.contacts = contacts.has_value();
-        info.joints = joints.has_value();
+        info.contacts = H5Lexists(file.get(), layout::contacts, H5P_DEFAULT) > 0;
+        info.joints = H5Lexists(file.get(), layout::joints, H5P_DEFAULT) > 0;
+        if (info.parts > 0) return;
+        if (info.contacts) contacts.emplace(file, path);
+        if (info.joints) joints.emplace(file, path, info.scene.joints.size());
+    }
+
+    void readBodies(hsize_t index, Frame& frame) const {
+        series->bodies->position.read(index, frame.position.data());
+        series->bodies->orientation.read(index, quaternions.data());
+        series->bodies->linear_velocity.read(index, frame.linear_velocity.data());
+        series->bodies->angular_velocity.read(index, frame.angular_velocity.data());
+        series->bodies->asleep.read(index, frame.asleep.data());
+        for (std::size_t i = 0; i < info.bodies; ++i) {
+            const std::array<double, 4>& q = quaternions[i];
+            frame.orientation[i] = Quat(q[0], q[1], q[2], q[3]);
+        }
     }
 
     /// Of all frames up to one. @throws IoError if the file says nonsense
@@ -160,6 +152,7 @@ struct RecordingReader::Impl {
         if (contacts) frames = std::min(frames, contacts->end.frames());
         if (joints)
             frames = std::min({frames, joints->point.frames(), joints->force.frames(), joints->torque.frames()});
+        for (const auto& part : parts) frames = std::min<hsize_t>(frames, part->frames());
         return frames;
     }
 
@@ -192,6 +185,7 @@ struct RecordingReader::Impl {
     std::optional<hdf5::SeriesReader> hashes;
     std::optional<hdf5::ContactSeries<hdf5::SeriesReader>> contacts;
     std::optional<hdf5::JointSeries<hdf5::SeriesReader>> joints;
+    std::vector<std::unique_ptr<PartReader>> parts;
     mutable std::vector<std::array<double, 4>> quaternions;  ///< w, x, y, z
 };
 
@@ -216,19 +210,9 @@ Frame RecordingReader::frame(std::size_t index) const {
     }
     const hdf5::QuietErrors quiet;
     const auto& series = *impl.series;
-    const std::size_t bodies = impl.info.bodies;
-    Frame frame;
-    frame.position.resize(bodies);
-    frame.orientation.resize(bodies);
-    frame.linear_velocity.resize(bodies);
-    frame.angular_velocity.resize(bodies);
-    frame.asleep.resize(bodies);
+    Frame frame = emptyFrame(impl.info);
     series.time.read(index, &frame.time);
-    series.position.read(index, frame.position.data());
-    series.orientation.read(index, impl.quaternions.data());
-    series.linear_velocity.read(index, frame.linear_velocity.data());
-    series.angular_velocity.read(index, frame.angular_velocity.data());
-    series.asleep.read(index, frame.asleep.data());
+    if (series.bodies) impl.readBodies(index, frame);
     series.kinetic_energy.read(index, &frame.kinetic_energy);
     series.potential_energy.read(index, &frame.potential_energy);
     series.stage_ms.read(index, frame.statistics.stage_ms.data());
@@ -245,10 +229,8 @@ Frame RecordingReader::frame(std::size_t index) const {
         frame.step_hashes.resize(impl.info.hashes_per_frame);
         impl.hashes->read(index, frame.step_hashes.data());
     }
-    for (std::size_t i = 0; i < bodies; ++i) {
-        const std::array<double, 4>& q = impl.quaternions[i];
-        frame.orientation[i] = Quat(q[0], q[1], q[2], q[3]);
-    }
+    for (const auto& part : impl.parts) part->read(index, frame);
+    if (!impl.parts.empty()) sortContacts(frame);
     impl.readForces(index, frame);
     return frame;
 }

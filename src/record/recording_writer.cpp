@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <initializer_list>
 #include <numeric>
 #include <optional>
@@ -11,28 +10,16 @@
 #include "cairn/recording.h"
 #include "cairn/version.h"
 #include "record/attributes.h"
-#include "record/file_driver.h"
 #include "record/force_series.h"
 #include "record/frame_series.h"
 #include "record/machine.h"
+#include "record/recording_file.h"
 
 namespace cairn {
 
 namespace {
 
 using hdf5::checked;
-
-/// A new file that others may read while it grows.
-hdf5::File createFile(const std::filesystem::path& path, const hdf5::FileDriver& driver, hdf5::WriteState& state) {
-    const hdf5::Properties access(H5Pcreate(H5P_FILE_ACCESS), path, "cannot be created");
-    // Single writer, multiple readers needs the file format of HDF5 1.10, which later versions read as well.
-    checked(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110), path, "cannot be created");
-    checked(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), path, "cannot be created");
-    driver.useFor(access, state, path);
-    hdf5::File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
-    if (!file && state.error == 0) hdf5::fail(path, "cannot be created");
-    return file;
-}
 
 std::string stageNames() {
     return std::accumulate(
@@ -98,24 +85,34 @@ struct RecordingWriter::Impl {
     Impl(const std::filesystem::path& file_path, const Scene& scene, const Settings& settings,
          const RecordingOptions& options)
         : path(file_path),
-          bodies(scene.bodies.size()),
-          joint_count(options.joints ? scene.joints.size() : 0),
+          bodies(options.parts == 0 ? scene.bodies.size() : 0),
+          joint_count(options.joints && options.parts == 0 ? scene.joints.size() : 0),
           hash_row(options.hashes_per_frame),
           driver(path),
-          file(createFile(path, driver, writes)) {
+          file(hdf5::createFile(path, driver, writes)),
+          in_parts(options.parts > 0) {
         requireWritten(file ? "cannot be written" : "cannot be created");
         writeMetadata(file, path, scene, settings, options.frame_rate);
-        series.emplace(file, path, bodies);
+        series.emplace(file, path);
+        if (in_parts) {
+            hdf5::writeAttribute(file.get(), path, layout::parts_attribute, static_cast<std::int64_t>(options.parts));
+            hdf5::writeAttribute(file.get(), path, layout::mark_attribute, static_cast<std::int64_t>(options.mark));
+            // Whether the parts have contacts and joints must be known without them.
+            if (options.contacts) hdf5::createGroup(file, path, layout::contacts);
+            if (options.joints) hdf5::createGroup(file, path, layout::joints);
+        } else {
+            series->bodies.emplace(file, path, bodies);
+        }
         if (settings.diagnostics.diagnostics) {
             hdf5::createGroup(file, path, layout::diagnostics);
             diagnostics = hdf5::diagnosticsSeries<hdf5::SeriesWriter>(file, path);
         }
         if (!hash_row.empty()) hashes.emplace(file, path, hdf5::stepHashes(hash_row.size()));
-        if (options.contacts) {
+        if (options.contacts && !in_parts) {
             hdf5::createGroup(file, path, layout::contacts);
             contacts.emplace(file, path);
         }
-        if (options.joints) {
+        if (options.joints && !in_parts) {
             hdf5::createGroup(file, path, layout::joints);
             joints.emplace(file, path, scene.joints.size());
         }
@@ -154,16 +151,20 @@ struct RecordingWriter::Impl {
         }
     }
 
-    void write(const Frame& frame) {
+    void writeBodies(const Frame& frame) {
         for (std::size_t i = 0; i < bodies; ++i) {
             const Quat& q = frame.orientation[i];
             quaternions[i] = {q.w(), q.x(), q.y(), q.z()};
         }
-        series->position.append(frames, frame.position.data());
-        series->orientation.append(frames, quaternions.data());
-        series->linear_velocity.append(frames, frame.linear_velocity.data());
-        series->angular_velocity.append(frames, frame.angular_velocity.data());
-        series->asleep.append(frames, frame.asleep.data());
+        series->bodies->position.append(frames, frame.position.data());
+        series->bodies->orientation.append(frames, quaternions.data());
+        series->bodies->linear_velocity.append(frames, frame.linear_velocity.data());
+        series->bodies->angular_velocity.append(frames, frame.angular_velocity.data());
+        series->bodies->asleep.append(frames, frame.asleep.data());
+    }
+
+    void write(const Frame& frame) {
+        if (series->bodies) writeBodies(frame);
         series->kinetic_energy.append(frames, &frame.kinetic_energy);
         series->potential_energy.append(frames, &frame.potential_energy);
         series->stage_ms.append(frames, frame.statistics.stage_ms.data());
@@ -190,18 +191,16 @@ struct RecordingWriter::Impl {
         ++frames;
     }
 
-    void requireWritten(std::string_view what) const {
-        if (writes.error == 0) return;
-        throw IoError(fmt::format("{}: {}: {}", path.string(), what, std::strerror(writes.error)));
-    }
+    void requireWritten(std::string_view what) const { hdf5::requireWritten(writes, path, what); }
 
     std::filesystem::path path;
-    std::size_t bodies;
+    std::size_t bodies;                   ///< recorded here
     std::size_t joint_count;              ///< recorded
     std::vector<std::uint64_t> hash_row;  ///< [hashes per frame]
     hdf5::WriteState writes;
     hdf5::FileDriver driver;
     hdf5::File file;
+    bool in_parts;
     std::optional<hdf5::FrameSeries<hdf5::SeriesWriter>> series;
     std::vector<hdf5::SeriesWriter> diagnostics;  ///< empty without the setting
     std::optional<hdf5::SeriesWriter> hashes;

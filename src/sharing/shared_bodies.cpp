@@ -58,6 +58,11 @@ bool SharedBodies::settle(const DealtOut& world) {
         divide(world);
         return true;
     }
+    if (ranks_.size() == 1) {
+        // Nobody is elsewhere.
+        fastest_ = world.fastest;
+        return false;
+    }
     if (!isDue(world)) return false;
     coverAll(world);
     const NearGroupsInput input = groupsInput(world);

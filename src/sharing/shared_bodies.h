@@ -48,9 +48,24 @@ class SharedBodies {
     bool isWhole() const { return whole_; }
     /// The largest of DealtOut::fastest that ranks told at the last settle() [m/s].
     double fastest() const { return fastest_; }
-    /// Whether a body of a divided world counts in a sum over all ranks: of fixed bodies the first rank tells.
-    bool isCounted(const BodyStorage& bodies, BodyIndex i) const {
-        return bodies.kind[i] == BodyKind::dynamic || ranks_.rank() == 0;
+    /// Whether a body of a divided world counts in a sum over all ranks: of fixed bodies the first rank tells, but of
+    /// one that a fault fixed in this step only the rank that has it knows.
+    bool isCounted(BodyIndex i) const { return kind_[i] == BodyKind::dynamic || ranks_.rank() == 0; }
+
+    /// Whether a rank tells of a slot what all that have no such body must know: of divided worlds each slot is told by
+    /// one rank, by the first where the body is on all or there is none.
+    bool isTold(const BodyStorage& bodies, BodyIndex i) const {
+        if (kind_[i] != BodyKind::dynamic) return ranks_.rank() == 0;
+        return bodies.kind[i] != BodyKind::hole;
+    }
+    /// Whether a joint is where a body of it is that this rank has.
+    bool hasJoint(const BodyStorage& bodies, const Joint& joint) const {
+        const BodyIndex end = endOf(joint);
+        return end != Joint::world && bodies.kind[end] != BodyKind::hole;
+    }
+    /// As isTold() of a joint.
+    bool tellsJoint(const BodyStorage& bodies, const Joint& joint) const {
+        return endOf(joint) == Joint::world ? ranks_.rank() == 0 : hasJoint(bodies, joint);
     }
 
     /// Brings the bodies to where they belong, before a detection. If the world is whole it is divided afterwards.

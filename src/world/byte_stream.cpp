@@ -51,6 +51,22 @@ std::uint64_t headCheck(const Head& head) {
     return checksum(std::as_bytes(std::span(&head, 1)).first(offsetof(Head, check)));
 }
 
+std::string_view nameOf(FrameKind kind) {
+    switch (kind) {
+        case FrameKind::world:
+            return "a world";
+        case FrameKind::scene_run:
+            return "a run";
+        case FrameKind::world_part:
+            return "a part of a world";
+        case FrameKind::run_part:
+            return "a part of a run, which the file of its checkpoint names";
+        case FrameKind::checkpoint:
+            return "a checkpoint of several parts";
+    }
+    return "something unknown";
+}
+
 std::size_t blocksOf(std::uint64_t content) {
     return static_cast<std::size_t>((content + block_size - 1) / block_size);
 }
@@ -74,6 +90,13 @@ void sealFrame(std::span<std::byte> frame, FrameKind kind, std::uint32_t version
         const std::uint64_t sum = checksum(frame.subspan(sizeof(Head) + begin, std::min(block_size, content - begin)));
         std::memcpy(frame.data() + sizeof(Head) + content + i * sizeof sum, &sum, sizeof sum);
     }
+}
+
+std::optional<FrameKind> frameKind(std::span<const std::byte> frame) {
+    if (frame.size() < sizeof(Head)) return std::nullopt;
+    Head head{};
+    std::memcpy(&head, frame.data(), sizeof head);
+    return static_cast<FrameKind>(head.kind);
 }
 
 ByteWriter::ByteWriter(std::vector<std::byte>& buffer, FrameKind kind)
@@ -112,9 +135,8 @@ ByteReader::ByteReader(std::span<const std::byte> bytes, FrameKind kind, std::st
     }
     if (head.check != headCheck(head)) throw InputError(fmt::format("{} is damaged within bytes 8 and 32", source_));
     if (head.kind != static_cast<std::uint32_t>(kind)) {
-        throw InputError(fmt::format("{} holds {} (byte 8), not {}", source_,
-                                     head.kind == static_cast<std::uint32_t>(FrameKind::world) ? "a world" : "a run",
-                                     kind == FrameKind::world ? "a world" : "a run"));
+        throw InputError(fmt::format("{} holds {} (byte 8), not {}", source_, nameOf(static_cast<FrameKind>(head.kind)),
+                                     nameOf(kind)));
     }
     const std::size_t behind = bytes.size() - sizeof head;
     const std::size_t blocks = head.content <= behind ? blocksOf(head.content) : 0;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,7 +28,13 @@ concept PlainBytes = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_sam
     std::is_same_v<T, Mat3> || std::is_same_v<T, Quat> || std::is_same_v<T, std::array<std::uint32_t, 3>>;
 
 /// What a frame of bytes holds.
-enum class FrameKind : std::uint32_t { world = 1, scene_run = 2 };
+enum class FrameKind : std::uint32_t {
+    world = 1,
+    scene_run = 2,
+    world_part = 3,  ///< of a world that is divided: what one rank has
+    run_part = 4,    ///< likewise of a run
+    checkpoint = 5   ///< of parts: which files they are
+};
 
 /// Writes into a buffer whose memory is used again.
 class ByteWriter {
@@ -117,6 +124,9 @@ class ByteReader {
 
 /// Writes the head of a frame over its first bytes. For tests that change what is behind it.
 void sealFrame(std::span<std::byte> frame, FrameKind kind, std::uint32_t version);
+
+/// What a frame says it is; nothing checks it. @return none if it is too short to say
+std::optional<FrameKind> frameKind(std::span<const std::byte> frame);
 
 /// Bytes of the head of a frame with so many bytes behind it.
 std::size_t frameHeadSize();

@@ -140,7 +140,7 @@ void checkEnergy(const WorldState& world, double before) {
         const double factor = std::max(1.0, std::abs(world.bodies.gravity_factor[i]));
         if (world.bodies.kind[i] == BodyKind::dynamic) mass += factor * factor * world.bodies.mass[i];
     }
-    const double after = kineticEnergyOf(world.bodies);
+    const double after = kineticEnergyOf(world.bodies).rounded();
     if (after <= before * (1 + energy_error) + 0.5 * mass * speed * speed) return;
     fail(world, fmt::format("the resolution raised the kinetic energy from {} to {} J", before, after));
 }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "activity/sleeping.h"
 #include "integration/integration.h"
 #include "joints/joint_kinds.h"
+#include "messages/packing.h"
 #include "resolution/contact_law.h"
 #include "world/totals.h"
 
@@ -66,34 +68,21 @@ Vec3 accelerationOf(const WorldState& world) {
     return world.gravity + world.global_acceleration;
 }
 
-StepTotals totalsOf(const WorldState& world) {
-    return {kineticEnergyOf(world.bodies), potentialEnergyOf(world.bodies, accelerationOf(world)),
-            linearMomentumOf(world.bodies), angularMomentumOf(world.bodies)};
-}
-
-/// Splits the change of the kinetic energy among gravity, its damping and all other forces. A force's work is its
-/// impulse times the mean of the velocities before and after.
-void accountForces(WorldState& world, double change) {
+/// Sums the work of gravity, its damping and the frame. A force's work is its impulse times the mean of the velocities
+/// before and after.
+void sumForces(const WorldState& world, MeasuredSums& sums) {
     const BodyStorage& b = world.bodies;
     const MeasuredData& data = world.data.measured;
-    Diagnostics& d = world.statistics.diagnostics;
     const SleepSettings& sleep = world.settings.sleep;
     const Vec3 step = accelerationOf(world) * world.settings.timeStep();
-    double gravity = 0;
-    double damped = 0;
-    double driven = 0;
     const Vec3 frame_step = world.frame_acceleration * world.settings.timeStep();
     for (BodyIndex i = 0; i < b.slots(); ++i) {
         if (b.kind[i] != BodyKind::dynamic || b.asleep[i] != 0) continue;
         const double work = b.gravity_factor[i] * b.mass[i] * step.dot(0.5 * (data.v[i] + b.v[i]));
-        gravity += work;
-        driven += b.mass[i] * frame_step.dot(0.5 * (data.v[i] + b.v[i]));
-        if (isDamped(squaredMotion(data.v[i], data.w[i], b.r_max[i]), sleep)) damped -= sleep.damping * work;
+        sums.flight.add(work);
+        sums.drives.add(b.mass[i] * frame_step.dot(0.5 * (data.v[i] + b.v[i])));
+        if (isDamped(squaredMotion(data.v[i], data.w[i], b.r_max[i]), sleep)) sums.damping.add(-sleep.damping * work);
     }
-    d.energy_flight += gravity;
-    d.energy_damping += damped;
-    d.energy_drives += driven;
-    d.energy_forces += change - gravity - damped - driven;
 }
 
 /// What a contact did, in its coordinates.
@@ -125,7 +114,7 @@ ContactWork workOf(const WorldState& world, const Contact& c) {
     return {to_contact * c.impulse, at(data.v, data.w), at(b.v, b.w), c.angular_impulse.dot(turning)};
 }
 
-void addResiduals(const ContactWork& work, const Contact& c, const ResolutionSettings& settings, Diagnostics& d) {
+void addResiduals(const ContactWork& work, const Contact& c, const ResolutionSettings& settings, MeasuredSums& sums) {
     const Vec3& lambda = work.impulse;
     const double wanted = ContactLaw::separatingSpeed(settings, c, work.before[0]);
     const double normal = work.after[0] - wanted;
@@ -133,107 +122,157 @@ void addResiduals(const ContactWork& work, const Contact& c, const ResolutionSet
     const double tangential = std::sqrt(lambda[1] * lambda[1] + lambda[2] * lambda[2]);
     const double mu = c.kinetic_friction;
     const double sliding = lambda[1] * work.after[1] + lambda[2] * work.after[2];
-    d.signorini = std::max(d.signorini, std::abs(lambda[0] * normal));
-    d.de_saxce = std::max(d.de_saxce, std::abs(lambda[0] * (normal + mu * slip) + sliding));
-    d.dissipation = std::max(d.dissipation, std::abs(mu * std::abs(lambda[0]) - tangential) * slip);
+    sums.signorini = std::max(sums.signorini, std::abs(lambda[0] * normal));
+    sums.de_saxce = std::max(sums.de_saxce, std::abs(lambda[0] * (normal + mu * slip) + sliding));
+    sums.dissipation = std::max(sums.dissipation, std::abs(mu * std::abs(lambda[0]) - tangential) * slip);
 }
 
-void accountContacts(WorldState& world) {
+void sumContacts(const WorldState& world, MeasuredSums& sums) {
     const BodyStorage& b = world.bodies;
-    Diagnostics& d = world.statistics.diagnostics;
     for (const Contact& c : world.data.contacts) {
         if (c.impulse.isZero(0) && c.angular_impulse.isZero(0)) continue;
         const ContactWork work = workOf(world, c);
         const Vec3 mean = 0.5 * (work.before + work.after);
-        d.energy_restitution += work.impulse[0] * mean[0];
-        d.energy_friction += work.impulse[1] * mean[1] + work.impulse[2] * mean[2] + work.turning;
-        addResiduals(work, c, world.settings.resolution, d);
+        sums.restitution.add(work.impulse[0] * mean[0]);
+        sums.friction.add(work.impulse[1] * mean[1] + work.impulse[2] * mean[2] + work.turning);
+        addResiduals(work, c, world.settings.resolution, sums);
         const bool a_moves = b.kind[c.a] == BodyKind::dynamic;
         if (a_moves == (b.kind[c.b] == BodyKind::dynamic)) continue;
         const double sign = a_moves ? 1 : -1;
-        d.fixed_impulse += sign * c.impulse;
-        d.fixed_angular_impulse += sign * (c.point.cross(c.impulse) + c.angular_impulse);
+        sums.fixed.add(sign * c.impulse);
+        sums.fixed_angular.add(sign * (c.point.cross(c.impulse) + c.angular_impulse));
         const BodyIndex wall = a_moves ? c.b : c.a;
         const Vec3 at_wall = b.v[wall] + b.w[wall].cross(c.point - b.position[wall]) + surfaceVelocity(world, c, wall);
-        d.energy_drives += sign * (c.impulse.dot(at_wall) + c.angular_impulse.dot(b.w[wall]));
+        sums.drives.add(sign * (c.impulse.dot(at_wall) + c.angular_impulse.dot(b.w[wall])));
     }
 }
 
-/// @return whether there are any
-bool accountJoints(WorldState& world) {
+void sumJoints(const WorldState& world, MeasuredSums& sums) {
     const BodyStorage& b = world.bodies;
-    Diagnostics& d = world.statistics.diagnostics;
-    bool any = false;
+    sums.has_joints = !world.data.broken.empty();
     for (const Joint& joint : world.joints) {
         if (!isActive(joint, b.kind)) continue;
-        any = true;
+        sums.has_joints = true;
         if (entryOf(joint.kind).uses.couples) {
-            d.fixed_impulse -= joint.fixed_impulse;
-            d.fixed_angular_impulse -= joint.fixed_angular_impulse;
+            sums.fixed.add(-joint.fixed_impulse);
+            sums.fixed_angular.add(-joint.fixed_angular_impulse);
             continue;
         }
         const bool a_moves = isMovable(b.kind, joint.a);
         if (a_moves == isMovable(b.kind, joint.b)) continue;
         const double sign = a_moves ? 1 : -1;
         const Vec3 anchor = b.position[joint.a] + b.orientation[joint.a] * joint.anchor_a;
-        d.fixed_impulse += sign * joint.impulse;
-        d.fixed_angular_impulse += sign * (anchor.cross(joint.impulse) + joint.angular_impulse);
+        sums.fixed.add(sign * joint.impulse);
+        sums.fixed_angular.add(sign * (anchor.cross(joint.impulse) + joint.angular_impulse));
     }
-    return any || !world.data.broken.empty();
 }
 
-void accountResolution(WorldState& world, double change) {
-    Diagnostics& d = world.statistics.diagnostics;
-    const double driven = d.energy_drives;
-    accountContacts(world);
-    const double by_contacts = d.energy_friction + d.energy_restitution + (d.energy_drives - driven);
-    if (accountJoints(world)) d.energy_joints = change - by_contacts;
+/// Sums what this rank has at a point.
+void sumOwn(const WorldState& world, MeasuredSums& sums) {
+    sums.kinetic = kineticEnergyOf(world.bodies);
+    sums.potential = potentialEnergyOf(world.bodies, accelerationOf(world));
+    sums.momentum = linearMomentumOf(world.bodies);
+    sums.angular_momentum = angularMomentumOf(world.bodies);
+    if (sums.point == Measured::forces) sumForces(world, sums);
+    if (sums.point != Measured::resolution) return;
+    sumContacts(world, sums);
+    sumJoints(world, sums);
 }
 
-void finish(WorldState& world, const StepTotals& now) {
-    Diagnostics& d = world.statistics.diagnostics;
-    const StepTotals& begin = world.data.measured.begin;
-    d.momentum = now.momentum;
-    d.angular_momentum = now.angular_momentum;
-    d.momentum_error = (now.momentum - begin.momentum - d.fixed_impulse - d.force_impulse).norm();
-    d.angular_momentum_error =
-        (now.angular_momentum - begin.angular_momentum - d.fixed_angular_impulse - d.force_angular_impulse).norm();
-    d.energy = now.energy();
-    const double explained = d.energy_flight + d.energy_forces + d.energy_damping + d.energy_friction +
-                             d.energy_restitution + d.energy_joints + d.energy_drives + d.energy_correction +
-                             d.energy_sleep;
-    d.energy_error = now.energy() - begin.energy() - explained;
+/// Calls visit(sum) for all sums.
+template <class Visit>
+void forSums(MeasuredSums& sums, const Visit& visit) {
+    for (ExactSum* sum : {&sums.kinetic, &sums.potential, &sums.flight, &sums.damping, &sums.drives, &sums.friction,
+                          &sums.restitution}) {
+        visit(*sum);
+    }
+    for (ExactVectorSum* sum : {&sums.momentum, &sums.angular_momentum, &sums.fixed, &sums.fixed_angular}) {
+        sum->forAxes(visit);
+    }
 }
 
-}  // namespace
-
-std::span<const DiagnosticsField> diagnosticsFields() {
-    return diagnostics_fields;
+/// Adds what other ranks summed at the same points.
+void addOthers(Ranks& ranks, std::vector<MeasuredSums>& own) {
+    std::vector<std::byte> message;
+    for (MeasuredSums& sums : own) {
+        forSums(sums, [&](const ExactSum& sum) { pack(message, sum); });
+        pack(message, sums.signorini);
+        pack(message, sums.de_saxce);
+        pack(message, sums.dissipation);
+        pack(message, sums.has_joints);
+    }
+    const Ranks::Messages told = tellAll(ranks, message);
+    for (std::size_t rank = 0; rank < told.size(); ++rank) {
+        if (rank == static_cast<std::size_t>(ranks.rank())) continue;
+        Unpacker in(told[rank]);
+        for (MeasuredSums& sums : own) {
+            forSums(sums, [&](ExactSum& sum) { sum.add(in.getSum()); });
+            sums.signorini = std::max(sums.signorini, in.get<double>());
+            sums.de_saxce = std::max(sums.de_saxce, in.get<double>());
+            sums.dissipation = std::max(sums.dissipation, in.get<double>());
+            sums.has_joints = in.get<bool>() || sums.has_joints;
+        }
+    }
 }
 
-void measure(WorldState& world, Measured point) {
-    Diagnostics& d = world.statistics.diagnostics;
-    MeasuredData& data = world.data.measured;
-    const StepTotals now = totalsOf(world);
-    const StepTotals& last = data.last;
-    switch (point) {
+/// Energy and momentum of all bodies.
+struct StepTotals {
+    double kinetic;         ///< [J]
+    double energy;          ///< kinetic and potential [J]
+    Vec3 momentum;          ///< [N·s, W]
+    Vec3 angular_momentum;  ///< about the origin [N·m·s, W]
+};
+
+StepTotals totalsOf(const MeasuredSums& sums) {
+    const double kinetic = sums.kinetic.rounded();
+    return {kinetic, kinetic + sums.potential.rounded(), sums.momentum.rounded(), sums.angular_momentum.rounded()};
+}
+
+void accountResolution(const MeasuredSums& sums, double change, Diagnostics& d) {
+    const double friction = sums.friction.rounded();
+    const double restitution = sums.restitution.rounded();
+    const double drives = sums.drives.rounded();
+    d.energy_friction += friction;
+    d.energy_restitution += restitution;
+    d.energy_drives += drives;
+    if (sums.has_joints) d.energy_joints += change - friction - restitution - drives;
+    d.fixed_impulse += sums.fixed.rounded();
+    d.fixed_angular_impulse += sums.fixed_angular.rounded();
+    d.signorini = std::max(d.signorini, sums.signorini);
+    d.de_saxce = std::max(d.de_saxce, sums.de_saxce);
+    d.dissipation = std::max(d.dissipation, sums.dissipation);
+}
+
+/// Splits the change of the kinetic energy among gravity, its damping, the frame and all other forces.
+void accountForces(const MeasuredSums& sums, double change, Diagnostics& d) {
+    const double gravity = sums.flight.rounded();
+    const double damped = sums.damping.rounded();
+    const double driven = sums.drives.rounded();
+    d.energy_flight += gravity;
+    d.energy_damping += damped;
+    d.energy_drives += driven;
+    d.energy_forces += change - gravity - damped - driven;
+}
+
+/// Puts on its account what happened up to a point.
+void account(const MeasuredSums& sums, const StepTotals& last, const StepTotals& now, Diagnostics& d) {
+    switch (sums.point) {
         case Measured::begin:
-            data.begin = now;
             break;
         case Measured::laws:
             // What is high or low got another potential energy from a gravity that changed.
-            d.energy_drives += now.energy() - last.energy();
+            d.energy_drives += now.energy - last.energy;
             break;
         case Measured::positions:
-            d.energy_flight += now.energy() - last.energy();
+            d.energy_flight += now.energy - last.energy;
             break;
         case Measured::correction:
-            d.energy_correction = now.energy() - last.energy();
+            d.energy_correction = now.energy - last.energy;
             // Pairs of bodies pay with equal and opposite impulses: what is left came from fixed bodies.
             d.fixed_impulse += now.momentum - last.momentum;
             break;
         case Measured::forces:
-            accountForces(world, now.kinetic - last.kinetic);
+            accountForces(sums, now.kinetic - last.kinetic, d);
             d.force_impulse = now.momentum - last.momentum;
             d.force_angular_impulse = now.angular_momentum - last.angular_momentum;
             break;
@@ -243,21 +282,58 @@ void measure(WorldState& world, Measured point) {
             d.force_angular_impulse += now.angular_momentum - last.angular_momentum;
             break;
         case Measured::resolution:
-            accountResolution(world, now.kinetic - last.kinetic);
+            accountResolution(sums, now.kinetic - last.kinetic, d);
             break;
         case Measured::completion:
             // The second half of the motion under the forces.
-            d.energy_flight += now.energy() - last.energy();
+            d.energy_flight += now.energy - last.energy;
             d.force_angular_impulse += now.angular_momentum - last.angular_momentum;
             break;
         case Measured::sleep:
-            d.energy_sleep = now.energy() - last.energy();
-            finish(world, now);
+            d.energy_sleep = now.energy - last.energy;
             break;
     }
-    data.last = now;
+}
+
+void finish(WorldState& world) {
+    std::vector<MeasuredSums>& sums = world.data.measured.sums;
+    if (world.shared != nullptr) addOthers(world.shared->ranks(), sums);
+    Diagnostics& d = world.statistics.diagnostics;
+    const StepTotals begin = totalsOf(sums.front());
+    StepTotals now = begin;
+    for (const MeasuredSums& point : sums) {
+        const StepTotals last = std::exchange(now, totalsOf(point));
+        account(point, last, now, d);
+    }
+    d.momentum = now.momentum;
+    d.angular_momentum = now.angular_momentum;
+    d.momentum_error = (now.momentum - begin.momentum - d.fixed_impulse - d.force_impulse).norm();
+    d.angular_momentum_error =
+        (now.angular_momentum - begin.angular_momentum - d.fixed_angular_impulse - d.force_angular_impulse).norm();
+    d.energy = now.energy;
+    const double explained = d.energy_flight + d.energy_forces + d.energy_damping + d.energy_friction +
+                             d.energy_restitution + d.energy_joints + d.energy_drives + d.energy_correction +
+                             d.energy_sleep;
+    d.energy_error = now.energy - begin.energy - explained;
+}
+
+}  // namespace
+
+std::span<const DiagnosticsField> diagnosticsFields() {
+    return diagnostics_fields;
+}
+
+void measure(WorldState& world, Measured point) {
+    MeasuredData& data = world.data.measured;
+    if (point == Measured::begin) data.sums.clear();
+    MeasuredSums& sums = data.sums.emplace_back();
+    sums.point = point;
+    // What all ranks have, as long as the world is whole, the first one tells.
+    const bool is_told = world.shared == nullptr || !world.shared->isWhole() || world.shared->ranks().rank() == 0;
+    if (is_told) sumOwn(world, sums);
     data.v.assign(world.bodies.v.begin(), world.bodies.v.end());
     data.w.assign(world.bodies.w.begin(), world.bodies.w.end());
+    if (point == Measured::sleep) finish(world);
 }
 
 }  // namespace cairn

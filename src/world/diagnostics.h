@@ -5,11 +5,9 @@
 
 namespace cairn {
 
-/// Between which parts of a step it is measured.
-enum class Measured { begin, laws, positions, correction, forces, damping, resolution, completion, sleep };
-
-/// Puts what happened since the last point on its account in Statistics::diagnostics.
-/// @pre settings.diagnostics; every point once per step, in order
+/// Sums what happened since the last point; the last point puts it on the accounts in Statistics::diagnostics, of the
+/// whole world on all ranks that share it. @pre settings.diagnostics; the points of a step in order, only
+/// Measured::resolution also before the positions
 void measure(WorldState& world, Measured point);
 
 }  // namespace cairn

@@ -57,41 +57,46 @@ FaultInfo unpackFault(Unpacker& in) {
     return fault;
 }
 
-/// Lists who is inside of the sensors of all ranks.
-void gatherSensed(WorldState& world) {
-    std::vector<Sensed>& sensed = world.data.sensed;
-    std::vector<std::byte> message;
-    for (const Sensed& one : sensed) pack(message, one);
-    sensed.clear();
-    for (const auto& told : tellAll(world.shared->ranks(), message)) {
-        for (Unpacker in(told); !in.isAtEnd();) sensed.push_back(in.get<Sensed>());
-    }
-    std::ranges::sort(sensed, {}, [](const Sensed& one) { return std::tuple(one.sensor, one.body); });
-}
-
-/// Adds up what the ranks counted in the last step, and lists the faults of all.
+/// Takes over who is inside of the sensors of all ranks, what they counted in the last step, and the faults of all.
 void gatherReports(WorldState& world) {
     Ranks& ranks = world.shared->ranks();
     world.statistics = sumOverRanks(ranks, world.statistics);
     std::vector<std::byte> message;
+    pack(message, std::uint64_t{world.data.sensed.size()});
+    for (const Sensed& one : world.data.sensed) pack(message, one);
     for (const FaultInfo& fault : world.faults) packFault(message, fault);
+    world.data.sensed.clear();
     world.faults.clear();
     for (const auto& told : tellAll(ranks, message)) {
-        for (Unpacker in(told); !in.isAtEnd();) world.faults.push_back(unpackFault(in));
+        Unpacker in(told);
+        for (auto left = in.get<std::uint64_t>(); left > 0; --left) world.data.sensed.push_back(in.get<Sensed>());
+        while (!in.isAtEnd()) world.faults.push_back(unpackFault(in));
     }
+}
+
+/// Sorts, and leaves one of those that are alike: what is on all ranks is told by all.
+template <class List, class Key>
+void sortOut(List& list, const Key& key) {
+    std::ranges::stable_sort(list, {}, key);
+    const auto same = [&](const auto& one, const auto& other) { return key(one) == key(other); };
+    list.erase(std::unique(list.begin(), list.end(), same), list.end());
+}
+
+/// Brings what was gathered into the order of one rank, with what follows from the bodies and contacts.
+void uniteReports(WorldState& world) {
+    StepData& data = world.data;
+    placeCouplings(world);
+    buildBatches(world.bodies.kind, data.contacts, data.batch_scratch, data.batches, world.joints);
+    listContacts(world.bodies.kind, data.contacts, data.contacts_of);
+    sortOut(data.sensed, [](const Sensed& one) { return std::tuple(one.sensor, one.body); });
+    sortOut(world.faults, [](const FaultInfo& fault) { return std::tuple(fault.step, fault.body); });
     measureOverlaps(world);
-    // What failed while all ranks had it is told by all.
-    const auto key = [](const FaultInfo& fault) { return std::tuple(fault.step, fault.body); };
-    const auto same = [&](const FaultInfo& one, const FaultInfo& other) { return key(one) == key(other); };
-    std::ranges::stable_sort(world.faults, {}, key);
-    world.faults.erase(std::unique(world.faults.begin(), world.faults.end(), same), world.faults.end());
 }
 
 }  // namespace
 
 void settleShared(WorldState& world, const DetectionRange& range, bool flown) {
     if (world.shared == nullptr) return;
-    if (world.shared->isWhole()) requireShareable(world);
     const std::vector<BodyPair> tied = tiedBodies(world);
     std::span<Vec3> begun;
     if (flown && world.settings.integration.exact_flight) begun = world.data.before.position;
@@ -99,7 +104,11 @@ void settleShared(WorldState& world, const DetectionRange& range, bool flown) {
     const bool changed = world.shared->settle({world.bodies, data.pairs, data.contacts, world.joints, begun, tied,
                                                range, data.fastest, world.steps, world.executor});
     data.fastest = world.shared->fastest();
-    if (changed) prepareJoints(world);
+    if (!changed) return;
+    prepareJoints(world);
+    if (world.events.level == EventLevel::none) return;
+    // Nobody fell asleep in this step yet, so whoever came asleep was so before.
+    for (BodyIndex i = 0; i < world.bodies.slots(); ++i) world.events.asleep_before[i] |= world.bodies.asleep[i];
 }
 
 void gatherShared(WorldState& world) {
@@ -107,13 +116,17 @@ void gatherShared(WorldState& world) {
     StepData& data = world.data;
     world.shared->gather(
         {world.bodies, data.pairs, data.contacts, world.joints, {}, {}, {}, 0, world.steps, world.executor});
-    placeCouplings(world);
-    buildBatches(world.bodies.kind, data.contacts, data.batch_scratch, data.batches, world.joints);
-    listContacts(world.bodies.kind, data.contacts, data.contacts_of);
-    gatherSensed(world);
     gatherReports(world);
+    uniteReports(world);
     world.lasting.reset();
     ++world.places_version;
+}
+
+void unite(WorldState& world) {
+    // Those of a pair all come from one rank, in their order.
+    std::ranges::stable_sort(world.data.contacts, {}, [](const Contact& c) { return BodyPair{c.a, c.b}; });
+    uniteReports(world);
+    world.data.pairs.adopt(world.data.contacts);
 }
 
 void requireWhole(const WorldState& world, std::string_view call) {
@@ -121,18 +134,6 @@ void requireWhole(const WorldState& world, std::string_view call) {
     throw InputError(fmt::format(
         "{} needs all bodies, and the world is divided among {} ranks: call World::gather() on all of them first", call,
         world.shared->ranks().size()));
-}
-
-void requireShareable(const WorldState& world) {
-    const auto refuse = [](std::string_view what, std::string_view remedy) {
-        throw InputError(fmt::format("{} cannot be shared among ranks yet; {}", what, remedy));
-    };
-    if (world.settings.diagnostics.diagnostics) {
-        refuse("a world that measures diagnostics", "switch the setting off, or run it on one rank");
-    }
-    if (world.events.level != EventLevel::none) {
-        refuse("a world that notes events", "set its event level to none, or run it on one rank");
-    }
 }
 
 }  // namespace cairn

@@ -14,10 +14,11 @@ void settleShared(WorldState& world, const DetectionRange& range, bool flown);
 /// Makes a shared world whole, on all ranks: bodies, contacts, batches, statistics and faults.
 void gatherShared(WorldState& world);
 
+/// Completes a world whose parts were put together: contacts and faults in their order, and what follows from them.
+/// @pre bodies, joints, contacts, sensed, statistics and faults of all ranks, one after the other
+void unite(WorldState& world);
+
 /// @param call that needs all bodies, such as "World::addBody" @throws InputError if the world is divided among ranks
 void requireWhole(const WorldState& world, std::string_view call);
-
-/// @throws InputError for what a world that ranks share cannot have: the text names it and the remedy
-void requireShareable(const WorldState& world);
 
 }  // namespace cairn

@@ -1,5 +1,12 @@
 #include "world/events.h"
 
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <type_traits>
+
+#include "messages/packing.h"
+
 namespace cairn {
 
 namespace {
@@ -21,50 +28,78 @@ Event pairEvent(const WorldState& world, std::span<const Contact> contacts) {
             .impulse = impulse};
 }
 
+/// The pairs that touched at the end of the last step.
+void listTouching(const WorldState& world, std::vector<Touching>& touching) {
+    const std::vector<std::uint32_t>& generation = world.data.generation;
+    touching.clear();
+    for (const ContactPair& pair : world.data.pairs.pairs()) {
+        if (pair.touches()) touching.push_back({{pair.a, generation[pair.a]}, {pair.b, generation[pair.b]}});
+    }
+}
+
+// In the order of the pairs.
+auto placeOf(const Touching& t) {
+    return std::tuple(t.a.index, t.b.index, t.a.generation, t.b.generation);
+}
+
+auto placeOf(const Sensed& s) {
+    return std::tuple(s.sensor, s.body);
+}
+
+/// Goes through two lists that are sorted by their places: began(i) for what only the second has, lasted(i) for what is
+/// in both, ended(i) for what only the first has. @param forNow calls with each of the second
+template <class Before, class ForNow, class Began, class Lasted, class Ended>
+void compare(const Before& before, const ForNow& forNow, const Began& began, const Lasted& lasted, const Ended& ended) {
+    auto old = before.begin();
+    forNow([&](const auto& now) {
+        // The pair of a body that was replaced ends before that of its successor begins.
+        for (; old != before.end() && placeOf(*old) < placeOf(now); ++old) ended(*old);
+        if (old == before.end() || placeOf(now) < placeOf(*old)) {
+            began(now);
+            return;
+        }
+        lasted(now);
+        ++old;
+    });
+    for (; old != before.end(); ++old) ended(*old);
+}
+
+/// A pair of this step, that may be compared with those of the last.
+struct TouchingNow : Touching {
+    const ContactPair* pair;
+};
+
 /// Tells which pairs began to touch, touched on and parted, in their order.
 void collectContacts(WorldState& world) {
     EventLog& log = world.events;
-    const std::vector<std::uint32_t>& generation = world.data.generation;
-    std::span<const BodyPair> removed = world.data.pairs.removed();
-    const auto endRemoved = [&] {
-        const auto [a, b] = removed.front();
-        removed = removed.subspan(1);
-        log.events.push_back({.kind = EventKind::contact_ended, .a = {a, generation[a]}, .b = {b, generation[b]}});
-    };
-    for (const ContactPair& pair : world.data.pairs.pairs()) {
-        // The pair of a body that was replaced ends before that of its successor begins.
-        while (!removed.empty() && removed.front() <= pair) endRemoved();
-        if (pair.touches()) {
-            if (pair.touched && log.level != EventLevel::all) continue;
-            Event event = pairEvent(world, std::span(world.data.contacts).subspan(pair.first, pair.count));
-            event.kind = pair.touched ? EventKind::contact_persisted : EventKind::contact_begun;
-            log.events.push_back(event);
-        } else if (pair.touched) {
-            log.events.push_back(
-                {.kind = EventKind::contact_ended, .a = world.bodies.idOf(pair.a), .b = world.bodies.idOf(pair.b)});
+    const auto forTouching = [&](const auto& use) {
+        for (const ContactPair& pair : world.data.pairs.pairs()) {
+            if (pair.touches()) use(TouchingNow{{world.bodies.idOf(pair.a), world.bodies.idOf(pair.b)}, &pair});
         }
-    }
-    while (!removed.empty()) endRemoved();
+    };
+    const auto tell = [&](const TouchingNow& now, EventKind kind) {
+        Event event = pairEvent(world, std::span(world.data.contacts).subspan(now.pair->first, now.pair->count));
+        event.kind = kind;
+        log.events.push_back(event);
+    };
+    compare(
+        log.touched_before, forTouching, [&](const TouchingNow& now) { tell(now, EventKind::contact_begun); },
+        [&](const TouchingNow& now) {
+            if (log.level == EventLevel::all) tell(now, EventKind::contact_persisted);
+        },
+        [&](const Touching& old) { log.events.push_back({.kind = EventKind::contact_ended, .a = old.a, .b = old.b}); });
 }
 
-/// Merges the bodies that sensors held in the last step with those of this one.
+/// Compares the bodies that sensors held in the last step with those of this one.
 void collectSensed(WorldState& world) {
     EventLog& log = world.events;
-    const auto order = [](const Sensed& s) { return std::tie(s.sensor, s.body); };
-    auto old = log.sensed_before.begin();
-    const auto leave = [&] {
-        log.events.push_back({.kind = EventKind::sensor_left, .a = old->sensor, .b = old->body});
-        ++old;
+    const auto tell = [&](const Sensed& sensed, EventKind kind) {
+        log.events.push_back({.kind = kind, .a = sensed.sensor, .b = sensed.body});
     };
-    for (const Sensed& now : world.data.sensed) {
-        while (old != log.sensed_before.end() && order(*old) < order(now)) leave();
-        if (old != log.sensed_before.end() && *old == now) {
-            ++old;
-            continue;
-        }
-        log.events.push_back({.kind = EventKind::sensor_entered, .a = now.sensor, .b = now.body});
-    }
-    while (old != log.sensed_before.end()) leave();
+    const auto forSensed = [&](const auto& use) { std::ranges::for_each(world.data.sensed, use); };
+    compare(
+        log.sensed_before, forSensed, [&](const Sensed& now) { tell(now, EventKind::sensor_entered); },
+        [](const Sensed&) {}, [&](const Sensed& old) { tell(old, EventKind::sensor_left); });
 }
 
 void collectSleep(WorldState& world) {
@@ -81,6 +116,92 @@ void collectSleep(WorldState& world) {
     }
 }
 
+/// Which kinds of events stand in one row, and where.
+int rowOf(EventKind kind) {
+    switch (kind) {
+        case EventKind::contact_begun:
+        case EventKind::contact_persisted:
+        case EventKind::contact_ended:
+            return 0;
+        case EventKind::sensor_entered:
+        case EventKind::sensor_left:
+            return 1;
+        case EventKind::woke:
+            return 2;
+        case EventKind::fell_asleep:
+            return 3;
+        case EventKind::frozen:
+            return 4;
+        case EventKind::joint_broke:
+            return 5;
+    }
+    return 6;
+}
+
+/// By row, and in it as one rank lists them.
+auto placeOf(const Event& event) {
+    const int row = rowOf(event.kind);
+    const auto [a, b] = std::pair(event.a, event.b);
+    const std::array in_row = row == 0 ? std::array{a.index, b.index, a.generation, b.generation}
+                                       : std::array{a.index, a.generation, b.index, b.generation};
+    return std::tuple(row, event.kind == EventKind::joint_broke ? event.joint : JointId{}, in_row);
+}
+
+/// Calls visit(member) for all members. @tparam AnyEvent maybe const
+template <class AnyEvent, class Visit>
+void forMembers(AnyEvent& event, const Visit& visit) {
+    visit(event.kind);
+    visit(event.reason);
+    visit(event.a);
+    visit(event.b);
+    visit(event.contacts);
+    visit(event.point);
+    visit(event.normal);
+    visit(event.distance);
+    visit(event.impulse);
+    visit(event.joint);
+}
+
+/// What a body began on the rank that it came to, it ended on the one that it left: then it lasted.
+Event joined(const Event& one, const Event& other) {
+    const bool ended = one.kind == EventKind::contact_ended || one.kind == EventKind::sensor_left;
+    Event event = ended ? other : one;
+    event.kind = EventKind::contact_persisted;
+    return event;
+}
+
+bool isCounterpart(EventKind one, EventKind other) {
+    return one != other && rowOf(one) == rowOf(other) && rowOf(one) <= 1;
+}
+
+/// Lists the events of all ranks, in the order of one.
+void gatherEvents(Ranks& ranks, EventLog& log) {
+    std::vector<std::byte> message;
+    for (const Event& event : log.events) {
+        forMembers(event, [&](const auto& member) { pack(message, member); });
+    }
+    std::vector<Event> all;
+    for (const auto& told : tellAll(ranks, message)) {
+        for (Unpacker in(told); !in.isAtEnd();) {
+            forMembers(all.emplace_back(),
+                       [&](auto& member) { member = in.get<std::remove_reference_t<decltype(member)>>(); });
+        }
+    }
+    std::ranges::stable_sort(all, {}, [](const Event& e) { return placeOf(e); });
+    log.events.clear();
+    for (auto next = all.begin(); next != all.end();) {
+        const auto end = std::find_if(next, all.end(), [&](const Event& e) { return placeOf(e) != placeOf(*next); });
+        // Of fixed bodies all ranks tell the same.
+        const auto other = std::find_if(next, end, [&](const Event& e) { return isCounterpart(e.kind, next->kind); });
+        if (other == end) {
+            log.events.push_back(*next);
+        } else if (log.level == EventLevel::all && rowOf(next->kind) == 0) {
+            log.events.push_back(joined(*next, *other));
+        }
+        next = end;
+    }
+}
+
 }  // namespace
 
 void beginEvents(WorldState& world) {
@@ -88,8 +209,13 @@ void beginEvents(WorldState& world) {
     log.events.clear();
     if (log.level == EventLevel::none) return;
     log.asleep_before.assign(world.bodies.asleep.begin(), world.bodies.asleep.end());
-    log.sensed_before = world.data.sensed;
     log.faults_before = world.faults.size();
+    log.touched_before.clear();
+    log.sensed_before.clear();
+    // Of a whole world the first rank tells what ended.
+    if (world.shared != nullptr && world.shared->isWhole() && world.shared->ranks().rank() != 0) return;
+    listTouching(world, log.touched_before);
+    log.sensed_before = world.data.sensed;
 }
 
 void collectEvents(WorldState& world) {
@@ -108,6 +234,7 @@ void collectEvents(WorldState& world) {
                               .impulse = broken.impulse,
                               .joint = broken.joint});
     }
+    if (world.shared != nullptr) gatherEvents(world.shared->ranks(), log);
 }
 
 }  // namespace cairn

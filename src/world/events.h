@@ -9,8 +9,8 @@ namespace cairn {
 void beginEvents(WorldState& world);
 
 /// Fills the events of the step: contacts by their pair, then what sensors hold, then bodies that woke and those that
-/// fell asleep, each in ascending order of ids, then faults in the order in which they were noted. @pre the stages have
-/// run, the reasons of waking are not cleared yet
+/// fell asleep, each in ascending order of ids, then faults and broken joints likewise; of all ranks that share the
+/// world. @pre the stages have run, the reasons of waking are not cleared yet
 void collectEvents(WorldState& world);
 
 }  // namespace cairn

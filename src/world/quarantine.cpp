@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace cairn {
 
@@ -31,10 +32,23 @@ std::string describe(const BodyStorage& bodies, std::size_t i) {
         p.x(), p.y(), p.z(), v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), distance_limit, speed_limit);
 }
 
+/// What two fixed bodies give each other moves nobody, and a resolution that finds such a contact in a batch may leave
+/// any impulse in it.
+void clearUnmoved(WorldState& world) {
+    const auto& kind = world.bodies.kind;
+    for (Contact& contact : world.data.contacts) {
+        if (kind[contact.a] == BodyKind::dynamic || kind[contact.b] == BodyKind::dynamic) continue;
+        contact.impulse.setZero();
+        contact.angular_impulse.setZero();
+        contact.last_impulse.setZero();
+    }
+}
+
 }  // namespace
 
 void quarantine(WorldState& world) {
     BodyStorage& bodies = world.bodies;
+    const std::size_t known = world.faults.size();
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (bodies.kind[i] != BodyKind::dynamic || isSound(bodies, i)) continue;
         world.lasting.reset();
@@ -49,19 +63,28 @@ void quarantine(WorldState& world) {
         bodies.kind[i] = BodyKind::fixed;
         bodies.updateMassProperties(i);
     }
+    if (world.faults.size() > known) {
+        // By body within a step, whichever stage found it: so ranks list their faults as one does.
+        std::ranges::stable_sort(world.faults, {}, [](const FaultInfo& f) { return std::tuple(f.step, f.body); });
+    }
+    if (!world.faults.empty() && world.faults.back().step == world.steps) clearUnmoved(world);
+}
+
+Overlaps overlapsOf(const WorldState& world) {
+    Overlaps overlaps;
+    for (const Contact& contact : world.data.contacts) {
+        if (contact.distance >= 0) continue;
+        ++overlaps.count;
+        overlaps.sum.add(-contact.distance);
+        overlaps.largest = std::max(overlaps.largest, -contact.distance);
+    }
+    return overlaps;
 }
 
 void measureOverlaps(WorldState& world) {
-    Statistics& s = world.statistics;
-    std::int64_t overlapping = 0;
-    double overlap = 0;
-    for (const Contact& contact : world.data.contacts) {
-        if (contact.distance >= 0) continue;
-        ++overlapping;
-        overlap -= contact.distance;
-        s.largest_overlap = std::max(s.largest_overlap, -contact.distance);
-    }
-    s.mean_overlap = overlapping > 0 ? overlap / static_cast<double>(overlapping) : 0;
+    const Overlaps overlaps = overlapsOf(world);
+    world.statistics.largest_overlap = std::max(world.statistics.largest_overlap, overlaps.largest);
+    world.statistics.mean_overlap = overlaps.mean();
 }
 
 void summarize(WorldState& world) {

@@ -14,6 +14,7 @@
 #include "world/saved_filter.h"
 #include "world/saved_joints.h"
 #include "world/saved_motions.h"
+#include "world/snapshot_pieces.h"
 
 namespace cairn {
 
@@ -182,10 +183,10 @@ void checkNumbers(const ByteReader& in, std::vector<std::uint64_t> numbers, std:
     if (!unique || (!numbers.empty() && numbers.back() >= next_number)) in.refuse("two bodies with the same number");
 }
 
-void loadBodies(ByteReader& in, std::size_t materials, BodyStorage& b) {
-    const auto slots = in.get<std::uint64_t>();
-    const auto next_number = in.get<std::uint64_t>();
-    bodyFields(in, b, slots);
+}  // namespace
+
+void completeBodies(const ByteReader& in, std::size_t materials, std::uint64_t next_number, BodyStorage& b) {
+    const std::size_t slots = b.kind.size();
     if (std::ranges::any_of(b.kind, [](BodyKind kind) { return kind > BodyKind::dynamic; }) ||
         std::ranges::any_of(b.woken, [](WakeReason reason) { return reason > WakeReason::floating; }) ||
         std::ranges::any_of(b.asleep, [](std::uint8_t asleep) { return asleep > 1; }) ||
@@ -200,6 +201,15 @@ void loadBodies(ByteReader& in, std::size_t materials, BodyStorage& b) {
         checkBody(in, b, i, materials);
         checkMassProperties(in, b, i);
     }
+}
+
+namespace {
+
+void loadBodies(ByteReader& in, std::size_t materials, BodyStorage& b) {
+    const auto slots = in.get<std::uint64_t>();
+    const auto next_number = in.get<std::uint64_t>();
+    bodyFields(in, b, slots);
+    completeBodies(in, materials, next_number, b);
 }
 
 void loadSprings(ByteReader& in, const BodyStorage& bodies, std::vector<Spring>& springs) {
@@ -228,19 +238,8 @@ bool areBelow(const std::vector<std::uint32_t>& indices, std::size_t limit) {
     return std::ranges::all_of(indices, [&](std::uint32_t index) { return index < limit; });
 }
 
-void loadContacts(ByteReader& in, StepData& data) {
-    in.getArray(data.generation);
-    const auto count = in.get<std::uint64_t>();
-    BodyPair last;
-    for (auto left = count; left > 0; --left) {
-        Contact& contact = data.contacts.emplace_back();
-        contactFields(in, contact);
-        const bool known = contact.a < contact.b && contact.b < data.generation.size();
-        if (!known) in.refuse("a contact of an unknown body");
-        const BodyPair pair{contact.a, contact.b};
-        if (pair < last) in.refuse("contacts out of order");
-        last = pair;
-    }
+void loadBatches(ByteReader& in, StepData& data) {
+    const std::size_t count = data.contacts.size();
     Batches& batches = data.batches;
     batchArrays(in, batches);
     const bool sound = areBelow(batches.bodies, data.generation.size()) && areBelow(batches.contacts, count) &&
@@ -249,6 +248,25 @@ void loadContacts(ByteReader& in, StepData& data) {
                        batches.body_begin.size() == batches.contact_begin.size() &&
                        batches.batch_of_contact.size() == count && areBelow(batches.batch_of_contact, batches.size());
     if (!sound) in.refuse("batches that do not fit the contacts");
+}
+
+}  // namespace
+
+void saveContacts(const std::vector<Contact>& contacts, ByteWriter& out) {
+    saveList(out, contacts, [&](const Contact& contact) { contactFields(out, contact); });
+}
+
+void loadContacts(ByteReader& in, std::size_t slots, std::vector<Contact>& contacts) {
+    BodyPair last;
+    for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
+        Contact& contact = contacts.emplace_back();
+        contactFields(in, contact);
+        const bool known = contact.a < contact.b && contact.b < slots;
+        if (!known) in.refuse("a contact of an unknown body");
+        const BodyPair pair{contact.a, contact.b};
+        if (pair < last) in.refuse("contacts out of order");
+        last = pair;
+    }
 }
 
 void saveFaults(const std::vector<FaultInfo>& faults, ByteWriter& out) {
@@ -269,6 +287,11 @@ void loadFaults(ByteReader& in, std::vector<FaultInfo>& faults) {
         fault.step = in.get<std::int64_t>();
         fault.what = in.getText();
     }
+}
+
+void saveEvents(const EventLog& log, ByteWriter& out) {
+    out.put(log.level);
+    saveList(out, log.events, [&](const Event& event) { eventFields(out, event); });
 }
 
 void loadEvents(ByteReader& in, EventLog& log) {
@@ -292,38 +315,54 @@ void checkWorld(const ByteReader& in, const WorldState& world) {
     if (world.data.generation.size() > world.bodies.slots()) in.refuse("contacts of more bodies than there are");
 }
 
-}  // namespace
-
-void saveWorld(const WorldState& world, ByteWriter& out) {
+void saveHead(const WorldState& world, ByteWriter& out) {
     saveSettings(world.settings, out);
     saveMaterials(world.materials, out);
     worldFields(out, world);
-    saveBodies(world.bodies, out);
-    saveFilter(world.bodies.filter, out);
-    saveMotions(world, out);
-    saveList(out, world.springs, [&](const Spring& spring) { springFields(out, spring); });
-    saveList(out, world.joints, [&](const Joint& joint) { jointFields(out, joint); });
-    out.putArray(std::span(world.data.generation));
-    saveList(out, world.data.contacts, [&](const Contact& contact) { contactFields(out, contact); });
-    batchArrays(out, world.data.batches);
-    saveSensed(world.data.sensed, out);
-    statisticsFields(out, world.statistics);
-    saveFaults(world.faults, out);
-    out.put(world.events.level);
-    saveList(out, world.events.events, [&](const Event& event) { eventFields(out, event); });
 }
 
-std::unique_ptr<WorldState> loadWorld(ByteReader& in) {
+std::unique_ptr<WorldState> loadHead(ByteReader& in) {
     const Settings settings = loadSettings(in);
     auto world = std::make_unique<WorldState>(settings);
     loadMaterials(in, world->materials);
     worldFields(in, *world);
+    return world;
+}
+
+void saveTies(const WorldState& world, ByteWriter& out) {
+    saveFilter(world.bodies.filter, out);
+    saveMotions(world, out);
+    saveList(out, world.springs, [&](const Spring& spring) { springFields(out, spring); });
+    saveList(out, world.joints, [&](const Joint& joint) { jointFields(out, joint); });
+}
+
+void loadTies(ByteReader& in, WorldState& world) {
+    loadFilter(in, world.bodies);
+    loadMotions(in, world);
+    loadSprings(in, world.bodies, world.springs);
+    loadJoints(in, world.bodies, world.joints);
+}
+
+void saveWorld(const WorldState& world, ByteWriter& out) {
+    saveHead(world, out);
+    saveBodies(world.bodies, out);
+    saveTies(world, out);
+    out.putArray(std::span(world.data.generation));
+    saveContacts(world.data.contacts, out);
+    batchArrays(out, world.data.batches);
+    saveSensed(world.data.sensed, out);
+    statisticsFields(out, world.statistics);
+    saveFaults(world.faults, out);
+    saveEvents(world.events, out);
+}
+
+std::unique_ptr<WorldState> loadWorld(ByteReader& in) {
+    std::unique_ptr<WorldState> world = loadHead(in);
     loadBodies(in, world->materials.all().size(), world->bodies);
-    loadFilter(in, world->bodies);
-    loadMotions(in, *world);
-    loadSprings(in, world->bodies, world->springs);
-    loadJoints(in, world->bodies, world->joints);
-    loadContacts(in, world->data);
+    loadTies(in, *world);
+    in.getArray(world->data.generation);
+    loadContacts(in, world->data.generation.size(), world->data.contacts);
+    loadBatches(in, world->data);
     loadSensed(in, world->data.sensed);
     statisticsFields(in, world->statistics);
     loadFaults(in, world->faults);

@@ -83,7 +83,7 @@ double fastestAfterImpact(WorldState& world) {
 void beginDetection(WorldState& world, const DetectionRange& range, bool flown) {
     if (range.foresight.time > 0) world.data.fastest = fastestAfterImpact(world);
     settleShared(world, range, flown);
-    world.data.pairs.beginStep(world.bodies, world.data.generation, world.executor);
+    world.data.pairs.beginStep(world.bodies, world.data.generation);
     beginContacts(world.data.contacts, warmStart(world), world.executor);
 }
 
@@ -204,7 +204,7 @@ void resolveStage(WorldState& world) {
     buildJointBlocks(world);
     // Asked before a driven joint may break in this very step.
     const bool weighed = world.checks == Checks::on && mustKeepEnergy(world);
-    const double energy = weighed ? kineticEnergyOf(world.bodies) : 0;
+    const double energy = weighed ? kineticEnergyOf(world.bodies).rounded() : 0;
     const DetectionRange range = rangeOf(world);
     resolveContacts(world, bodies, pairsInput(world, range));
     finishJoints(world);

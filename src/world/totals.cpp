@@ -18,27 +18,27 @@ Vec3 spin(const BodyStorage& b, BodyIndex i) {
 
 }  // namespace
 
-double kineticEnergyOf(const BodyStorage& b) {
-    double energy = 0;
-    forDynamic(b, [&](BodyIndex i) { energy += 0.5 * (b.mass[i] * b.v[i].squaredNorm() + b.w[i].dot(spin(b, i))); });
+ExactSum kineticEnergyOf(const BodyStorage& b) {
+    ExactSum energy;
+    forDynamic(b, [&](BodyIndex i) { energy.add(0.5 * (b.mass[i] * b.v[i].squaredNorm() + b.w[i].dot(spin(b, i)))); });
     return energy;
 }
 
-double potentialEnergyOf(const BodyStorage& b, const Vec3& acceleration) {
-    double energy = 0;
-    forDynamic(b, [&](BodyIndex i) { energy -= b.gravity_factor[i] * b.mass[i] * acceleration.dot(b.position[i]); });
+ExactSum potentialEnergyOf(const BodyStorage& b, const Vec3& acceleration) {
+    ExactSum energy;
+    forDynamic(b, [&](BodyIndex i) { energy.add(-b.gravity_factor[i] * b.mass[i] * acceleration.dot(b.position[i])); });
     return energy;
 }
 
-Vec3 linearMomentumOf(const BodyStorage& b) {
-    Vec3 momentum = Vec3::Zero();
-    forDynamic(b, [&](BodyIndex i) { momentum += b.mass[i] * b.v[i]; });
+ExactVectorSum linearMomentumOf(const BodyStorage& b) {
+    ExactVectorSum momentum;
+    forDynamic(b, [&](BodyIndex i) { momentum.add(Vec3(b.mass[i] * b.v[i])); });
     return momentum;
 }
 
-Vec3 angularMomentumOf(const BodyStorage& b) {
-    Vec3 momentum = Vec3::Zero();
-    forDynamic(b, [&](BodyIndex i) { momentum += spin(b, i) + b.position[i].cross(b.mass[i] * b.v[i]); });
+ExactVectorSum angularMomentumOf(const BodyStorage& b) {
+    ExactVectorSum momentum;
+    forDynamic(b, [&](BodyIndex i) { momentum.add(Vec3(spin(b, i) + b.position[i].cross(b.mass[i] * b.v[i]))); });
     return momentum;
 }
 

@@ -7,12 +7,30 @@ namespace cairn {
 
 void World::share(Ranks& ranks, const Partition& partition) {
     requireWhole(*state_, "World::share");
-    requireShareable(*state_);
     state_->shared = std::make_unique<SharedBodies>(ranks, partition);
 }
 
 void World::gather() {
     gatherShared(*state_);
+}
+
+Ranks* World::ranks() const noexcept {
+    return state_->shared != nullptr ? &state_->shared->ranks() : nullptr;
+}
+
+bool World::isOwn(BodyId id) const noexcept {
+    if (!contains(id)) return false;
+    const SharedBodies* shared = state_->shared.get();
+    if (shared == nullptr) return true;
+    return shared->isWhole() ? shared->ranks().rank() == 0 : shared->isTold(state_->bodies, id.index);
+}
+
+bool World::isOwn(JointId id) const noexcept {
+    if (!contains(id)) return false;
+    const SharedBodies* shared = state_->shared.get();
+    if (shared == nullptr) return true;
+    return shared->isWhole() ? shared->ranks().rank() == 0
+                             : shared->tellsJoint(state_->bodies, state_->joints[id.index]);
 }
 
 bool World::isDivided() const noexcept {

@@ -3,7 +3,9 @@
 #include <bit>
 
 #include "cairn/world.h"
+#include "messages/packing.h"
 #include "world/division.h"
+#include "world/quarantine.h"
 #include "world/totals.h"
 #include "world/world_state.h"
 
@@ -151,19 +153,19 @@ BodyTrace World::trace(BodyId id) const {
 }
 
 double World::kineticEnergy() const {
-    return kineticEnergyOf(state_->bodies);
+    return kineticEnergyOf(state_->bodies).rounded();
 }
 
 double World::potentialEnergy() const {
-    return potentialEnergyOf(state_->bodies, state_->gravity + state_->global_acceleration);
+    return potentialEnergyOf(state_->bodies, state_->gravity + state_->global_acceleration).rounded();
 }
 
 Vec3 World::linearMomentum() const {
-    return linearMomentumOf(state_->bodies);
+    return linearMomentumOf(state_->bodies).rounded();
 }
 
 Vec3 World::angularMomentum() const {
-    return angularMomentumOf(state_->bodies);
+    return angularMomentumOf(state_->bodies).rounded();
 }
 
 std::uint64_t World::stateHash() const {
@@ -172,10 +174,64 @@ std::uint64_t World::stateHash() const {
     // A sum, so that neither the order of the slots nor who holds a body matters.
     std::uint64_t sum = 0;
     for (BodyIndex i = 0; i < b.slots(); ++i) {
-        if (b.kind[i] == BodyKind::hole || (divided && !state_->shared->isCounted(b, i))) continue;
+        if (b.kind[i] == BodyKind::hole || (divided && !state_->shared->isCounted(i))) continue;
         sum += hashOf(b, i);
     }
     return sum;
+}
+
+double World::meanOverlap() const {
+    Overlaps overlaps = overlapsOf(*state_);
+    if (!isDivided()) return overlaps.mean();
+    Ranks& ranks = state_->shared->ranks();
+    std::vector<std::byte> message;
+    pack(message, overlaps.sum);
+    pack(message, overlaps.count);
+    const Ranks::Messages told = tellAll(ranks, message);
+    for (std::size_t rank = 0; rank < told.size(); ++rank) {
+        if (rank == static_cast<std::size_t>(ranks.rank())) continue;
+        Unpacker in(told[rank]);
+        overlaps.sum.add(in.getSum());
+        overlaps.count += in.get<std::int64_t>();
+    }
+    return overlaps.mean();
+}
+
+WorldSums World::sums() const {
+    const BodyStorage& b = state_->bodies;
+    ExactSum kinetic = kineticEnergyOf(b);
+    ExactSum potential = potentialEnergyOf(b, state_->gravity + state_->global_acceleration);
+    ExactVectorSum momentum = linearMomentumOf(b);
+    ExactVectorSum angular = angularMomentumOf(b);
+    WorldSums sums;
+    sums.mean_overlap = meanOverlap();
+    sums.asleep = std::ranges::count(b.asleep, std::uint8_t{1});
+    sums.state_hash = stateHash();
+    const auto forSums = [&](const auto& visit) {
+        visit(kinetic);
+        visit(potential);
+        momentum.forAxes(visit);
+        angular.forAxes(visit);
+    };
+    if (isDivided()) {
+        Ranks& ranks = state_->shared->ranks();
+        std::vector<std::byte> message;
+        forSums([&](const ExactSum& sum) { pack(message, sum); });
+        pack(message, sums.asleep);
+        const Ranks::Messages told = tellAll(ranks, message);
+        for (std::size_t rank = 0; rank < told.size(); ++rank) {
+            if (rank == static_cast<std::size_t>(ranks.rank())) continue;
+            Unpacker in(told[rank]);
+            forSums([&](ExactSum& sum) { sum.add(in.getSum()); });
+            sums.asleep += in.get<std::int64_t>();
+        }
+        sums.state_hash = sumOverRanks(ranks, sums.state_hash);
+    }
+    sums.kinetic_energy = kinetic.rounded();
+    sums.potential_energy = potential.rounded();
+    sums.linear_momentum = momentum.rounded();
+    sums.angular_momentum = angular.rounded();
+    return sums;
 }
 
 }  // namespace cairn

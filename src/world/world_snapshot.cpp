@@ -3,6 +3,7 @@
 #include "world/division.h"
 #include "world/rollback.h"
 #include "world/snapshot.h"
+#include "world/snapshot_parts.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -20,6 +21,24 @@ void World::saveTo(std::vector<std::byte>& buffer) const {
     ByteWriter out(buffer, FrameKind::world);
     saveWorld(*state_, out);
     out.finish();
+}
+
+std::vector<std::byte> World::savePart() const {
+    if (!isDivided()) throw InputError("World::savePart is for a world that is divided; use World::save");
+    std::vector<std::byte> part;
+    ByteWriter out(part, FrameKind::world_part);
+    cairn::savePart(*state_, out);
+    out.finish();
+    return part;
+}
+
+World World::restoreParts(std::span<const SavedPart> parts) {
+    if (parts.empty()) throw InputError("a world needs the parts of all ranks; there are none");
+    std::vector<ByteReader> readers;
+    for (const SavedPart& part : parts) readers.emplace_back(part.bytes, FrameKind::world_part, part.source);
+    std::unique_ptr<WorldState> state = loadParts(readers);
+    for (const ByteReader& reader : readers) reader.finish();
+    return World(std::move(state));
 }
 
 World World::restore(std::span<const std::byte> snapshot) {

@@ -23,6 +23,7 @@
 #include "integration/joint_flight.h"
 #include "integration/springs.h"
 #include "joints/joint_groups.h"
+#include "math/exact_sum.h"
 #include "pairs/pair_table.h"
 #include "parallel/executor.h"
 #include "parallel/help_choice.h"
@@ -41,22 +42,31 @@ struct BrokenJoint {
     Vec3 impulse;  ///< on A in the step [N·s, W]
 };
 
-/// Energy and momentum of all bodies.
-struct StepTotals {
-    double kinetic = 0;                    ///< [J]
-    double potential = 0;                  ///< [J]
-    Vec3 momentum = Vec3::Zero();          ///< [N·s, W]
-    Vec3 angular_momentum = Vec3::Zero();  ///< about the origin [N·m·s, W]
+/// Between which parts of a step it is measured.
+enum class Measured { begin, laws, positions, correction, forces, damping, resolution, completion, sleep };
 
-    double energy() const { return kinetic + potential; }
+/// What is summed over the bodies, contacts and joints that a rank has at a point of a step.
+struct MeasuredSums {
+    Measured point = Measured::begin;
+    ExactSum kinetic;                  ///< [J]
+    ExactSum potential;                ///< [J]
+    ExactVectorSum momentum;           ///< [N·s, W]
+    ExactVectorSum angular_momentum;   ///< about the origin [N·m·s, W]
+    ExactSum flight, damping, drives;  ///< accounts of Diagnostics: at forces and resolution [J]
+    ExactSum friction, restitution;    ///< at the resolution [J]
+    ExactVectorSum fixed;              ///< likewise, impulse from fixed bodies [N·s, W]
+    ExactVectorSum fixed_angular;      ///< likewise, about the origin [N·m·s, W]
+    double signorini = 0;              ///< likewise, the largest of each [J]
+    double de_saxce = 0;
+    double dissipation = 0;
+    bool has_joints = false;  ///< likewise
 };
 
 /// What the diagnostics of a step remember between its stages.
 struct MeasuredData {
-    StepTotals begin;     ///< of the step
-    StepTotals last;      ///< at the last point
-    std::vector<Vec3> v;  ///< [slots] at the last point [m/s, W]
-    std::vector<Vec3> w;  ///< [slots] at the last point [rad/s, W]
+    std::vector<MeasuredSums> sums;  ///< at the points of the step so far
+    std::vector<Vec3> v;             ///< [slots] at the last point [m/s, W]
+    std::vector<Vec3> w;             ///< [slots] at the last point [rad/s, W]
 };
 
 /// Contacts that are resolved once more.
@@ -107,10 +117,16 @@ struct TraceData {
     std::vector<std::int32_t> shock_stage;  ///< [slots] subset of the shock propagation; −1 = none
 };
 
+/// Two bodies that touch.
+struct Touching {
+    BodyId a, b;
+};
+
 /// The events of the last step and what finding them takes.
 struct EventLog {
     EventLevel level = EventLevel::none;
     std::vector<Event> events;
+    std::vector<Touching> touched_before;     ///< by a and b, at the beginning of the step
     std::vector<Sensed> sensed_before;        ///< by sensor and body, at the beginning of the step
     std::vector<std::uint8_t> asleep_before;  ///< [slots] at the beginning of the step
     std::size_t faults_before = 0;            ///< at the beginning of the step

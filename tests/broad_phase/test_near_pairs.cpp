@@ -158,9 +158,7 @@ TEST(NearPairs, OfBodiesThatAreOthersBeginAnew) {
     near.update(moving.input(), grids, Executor(1));
     ASSERT_EQ(near.pairs().size(), 3);
     near.pairs()[0].count = 1;
-    std::vector<BodyPair> touching;
-    near.drop(std::vector<std::uint8_t>{0, 1, 0, 0}, touching);
-    EXPECT_EQ(touching, (std::vector<BodyPair>{{0, 1}})) << "the other pair did not touch";
+    near.drop(std::vector<std::uint8_t>{0, 1, 0, 0});
     EXPECT_EQ(near.pairs().size(), 1);
     near.update(moving.input(), grids, Executor(1));
     ASSERT_EQ(near.pairs().size(), 3);

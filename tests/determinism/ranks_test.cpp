@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "cairn/ranks.h"
@@ -17,15 +19,17 @@ namespace cairn {
 namespace {
 
 struct Division {
-    const char* name;
+    std::string name;
     int ranks;
     Partition partition;
+    int threads = 1;  ///< of each rank
 };
 
 using Kind = PartitionKind;
 
-/// Between them all numbers and cuts, those under which everything is a border, and owners that change in every step.
-const std::vector<Division> divisions{
+/// Between them all pairs of numbers of ranks, threads and cuts that differ in what can go wrong: those under which
+/// everything is a border, and owners that change in every step.
+const std::vector<Division> some_divisions{
     {"two by hash, changing", 2, {.kind = Kind::hash, .restless = true}},
     {"2x2x1", 4, {.kind = Kind::grid, .parts = {2, 2, 1}}},
     {"one", 1, {}},
@@ -35,7 +39,45 @@ const std::vector<Division> divisions{
     {"three by hash", 3, {.kind = Kind::hash}},
     {"four boxes, changing", 4, {.restless = true}},
     {"three boxes, rebalanced", 3, {.rebalance_every = 7}},
+    {"seven by hash, changing, two threads", 7, {.kind = Kind::hash, .restless = true}, 2},
+    {"2x2x2, two threads", 8, {.kind = Kind::grid, .parts = {2, 2, 2}}, 2},
 };
+
+/// With CAIRN_ALL_RANKS in the environment, as `make ranks` has it: every number with every cut.
+std::vector<Division> everyDivision() {
+    std::vector<Division> all;
+    for (const int ranks : {1, 2, 3, 4, 7, 8}) {
+        for (const int threads : {1, 2}) {
+            const std::vector<std::pair<const char*, Partition>> cuts{
+                {"x", {.kind = Kind::x}},
+                {"y", {.kind = Kind::y}},
+                {"z", {.kind = Kind::z}},
+                {"boxes, rebalanced", {.rebalance_every = 7}},
+                {"hash, changing", {.kind = Kind::hash, .restless = true}},
+                {"2x2x2", {.kind = Kind::grid, .parts = {2, 2, 2}}}};
+            for (const auto& [cut, partition] : cuts) {
+                if (partition.kind == Kind::grid && ranks != 8) continue;
+                all.push_back({std::to_string(ranks) + " ranks of " + std::to_string(threads) + " threads: " + cut,
+                               ranks, partition, threads});
+            }
+        }
+    }
+    return all;
+}
+
+const bool takes_all = std::getenv("CAIRN_ALL_RANKS") != nullptr;
+
+/// With the slower settings fewer will do.
+std::vector<Division> divisionsFor(golden::Kind kind) {
+    using enum golden::Kind;
+    if (takes_all) return kind == performance || kind == accuracy ? everyDivision() : some_divisions;
+    if (kind == performance) return some_divisions;
+    return {some_divisions[0], some_divisions[1]};
+}
+
+/// With CAIRN_LATE_MESSAGES in the environment messages are late by chance.
+const bool are_late = std::getenv("CAIRN_LATE_MESSAGES") != nullptr;
+const MessageDelay delay = are_late ? MessageDelay{.jitter = 1e-5} : MessageDelay{};
 
 /// What a run on one rank comes to.
 struct Expected {
@@ -87,29 +129,30 @@ TEST_P(RanksAgree, StatesAreThoseOfOneRankAtEveryStep) {
     const golden::Kind kind = std::get<1>(GetParam());
     const golden::GoldenScene& scene = golden::goldenScene(name);
     const Expected expected = runAlone(scene, kind);
-    // With the slower settings two will do.
-    const auto some = std::span(divisions).first(kind == golden::Kind::performance ? divisions.size() : 2);
-    for (const Division& division : some) {
+    for (const Division& division : divisionsFor(kind)) {
         SCOPED_TRACE(division.name);
-        runRanks(division.ranks, [&](Ranks& ranks) {
-            golden::GoldenRun run(scene, kind, 1);
-            run.share(ranks, division.partition);
-            for (std::size_t i = 0; i < expected.hashes.size(); ++i) {
-                SCOPED_TRACE("time step " + std::to_string(i + 1));
-                run.step();
-                ASSERT_TRUE(run.world().isDivided());
-                ASSERT_EQ(sumOverRanks(ranks, run.world().stateHash()), expected.hashes[i]);
-                expectEqual(sumOverRanks(ranks, run.world().statistics()), expected.steps[i]);
-                if (testing::Test::HasFailure()) return;
-            }
-            run.gather();
-            EXPECT_FALSE(run.world().isDivided());
-            EXPECT_EQ(run.world().stateHash(), expected.hashes.back());
-            EXPECT_TRUE(run.world().faults().empty());
-            expectEqual(run.world().statistics(), expected.steps.back());
-            EXPECT_EQ(run.world().statistics().mean_overlap, expected.steps.back().mean_overlap);
-            expectEqual(run.world().contacts(), expected.contacts);
-        });
+        runRanks(
+            division.ranks,
+            [&](Ranks& ranks) {
+                golden::GoldenRun run(scene, kind, division.threads);
+                run.share(ranks, division.partition);
+                for (std::size_t i = 0; i < expected.hashes.size(); ++i) {
+                    SCOPED_TRACE("time step " + std::to_string(i + 1));
+                    run.step();
+                    ASSERT_TRUE(run.world().isDivided());
+                    ASSERT_EQ(sumOverRanks(ranks, run.world().stateHash()), expected.hashes[i]);
+                    expectEqual(sumOverRanks(ranks, run.world().statistics()), expected.steps[i]);
+                    if (testing::Test::HasFailure()) return;
+                }
+                run.gather();
+                EXPECT_FALSE(run.world().isDivided());
+                EXPECT_EQ(run.world().stateHash(), expected.hashes.back());
+                EXPECT_TRUE(run.world().faults().empty());
+                expectEqual(run.world().statistics(), expected.steps.back());
+                EXPECT_EQ(run.world().statistics().mean_overlap, expected.steps.back().mean_overlap);
+                expectEqual(run.world().contacts(), expected.contacts);
+            },
+            delay);
         if (HasFatalFailure()) return;
     }
 }

@@ -164,6 +164,123 @@ TEST(SharedWorld, TakesCallsOnceItIsGathered) {
     }
 }
 
+/// What a step tells besides the state.
+struct Told {
+    std::vector<Event> events;
+    Diagnostics diagnostics;
+    WorldSums sums;
+};
+
+Told toldBy(const World& world) {
+    const std::span<const Event> events = world.events();
+    return {{events.begin(), events.end()}, world.statistics().diagnostics, world.sums()};
+}
+
+void expectEqual(const Event& one, const Event& other) {
+    EXPECT_EQ(one.kind, other.kind);
+    EXPECT_EQ(one.reason, other.reason);
+    EXPECT_EQ(one.a, other.a);
+    EXPECT_EQ(one.b, other.b);
+    EXPECT_EQ(one.contacts, other.contacts);
+    EXPECT_EQ(one.point, other.point);
+    EXPECT_EQ(one.normal, other.normal);
+    EXPECT_EQ(one.distance, other.distance);
+    EXPECT_EQ(one.impulse, other.impulse);
+    EXPECT_EQ(one.joint, other.joint);
+}
+
+void expectEqual(const WorldSums& one, const WorldSums& other) {
+    EXPECT_EQ(one.kinetic_energy, other.kinetic_energy);
+    EXPECT_EQ(one.potential_energy, other.potential_energy);
+    EXPECT_EQ(one.linear_momentum, other.linear_momentum);
+    EXPECT_EQ(one.angular_momentum, other.angular_momentum);
+    EXPECT_EQ(one.mean_overlap, other.mean_overlap);
+    EXPECT_EQ(one.asleep, other.asleep);
+    EXPECT_EQ(one.state_hash, other.state_hash);
+}
+
+void expectEqual(Told one, Told other) {
+    ASSERT_EQ(one.events.size(), other.events.size());
+    for (std::size_t i = 0; i < one.events.size(); ++i) expectEqual(one.events[i], other.events[i]);
+    expectEqual(one.sums, other.sums);
+    for (const DiagnosticsField& field : diagnosticsFields()) {
+        EXPECT_EQ(field.of(one.diagnostics), field.of(other.diagnostics)) << field.name;
+    }
+}
+
+/// Lets a scene run on three ranks, and a user meddle in the middle, and expects what one rank tells. @return what was
+/// told in all steps
+template <class Meddle>
+std::vector<Event> expectSameTold(const Scene& scene, int steps, const Meddle& meddleWith, const Partition& partition) {
+    const auto begin = [&] {
+        Settings settings = settingsFor(scene);
+        settings.diagnostics.diagnostics = true;
+        SceneRun run(scene, settings);
+        run.world().setEventLevel(EventLevel::all);
+        return run;
+    };
+    SceneRun alone = begin();
+    std::vector<Told> told;
+    for (int i = 0; i < steps; ++i) {
+        if (i == steps / 2) meddleWith(alone);
+        alone.step();
+        told.push_back(toldBy(alone.world()));
+    }
+    runRanks(3, [&](Ranks& ranks) {
+        SceneRun run = begin();
+        run.world().share(ranks, partition);
+        for (int i = 0; i < steps; ++i) {
+            SCOPED_TRACE("time step " + std::to_string(i + 1));
+            if (i == steps / 2) {
+                run.world().gather();
+                meddleWith(run);
+            }
+            run.step();
+            expectEqual(toldBy(run.world()), told[static_cast<std::size_t>(i)]);
+            if (testing::Test::HasFailure()) return;
+        }
+        run.world().gather();
+        expectEqual(toldBy(run.world()), told.back());
+        EXPECT_TRUE(run.world().save() == alone.world().save());
+    });
+    std::vector<Event> all;
+    for (const Told& one : told) all.insert(all.end(), one.events.begin(), one.events.end());
+    return all;
+}
+
+bool holds(const std::vector<Event>& events, EventKind kind) {
+    return std::ranges::any_of(events, [&](const Event& event) { return event.kind == kind; });
+}
+
+TEST(SharedWorld, TellsEventsAndMeasuresAsOneRankDoes) {
+    using enum EventKind;
+    const auto nothing = [](SceneRun&) {};
+    for (const Partition& partition : {Partition{}, by_hash, restless}) {
+        // With a user's calls, removed bodies, and one that is fixed by a fault.
+        Scene scene = row(8);
+        scene.bodies.push_back(ballAt({0.02, 0, 0.8}));
+        SceneBody gate = ballAt({1.75, 0, 0.1});
+        gate.shape = Box{{0.6, 0.4, 0.3}};
+        gate.sensor = true;
+        gate.fixed = true;
+        scene.bodies.push_back(gate);
+        scene.events.push_back({0.75, SetForce{4, {1e20, 0, 0}}});
+        const std::vector<Event> events = expectSameTold(scene, 240, meddle, partition);
+        for (const EventKind kind : {contact_begun, contact_persisted, contact_ended, fell_asleep, woke, frozen,
+                                     sensor_entered, sensor_left}) {
+            EXPECT_TRUE(holds(events, kind)) << static_cast<int>(kind);
+        }
+        // A joint that breaks, another that holds, and springs.
+        Scene hung = row(6);
+        hung.joints.push_back({2, 1, {.kind = JointKind::ball, .anchor = {0.25, 0, 0.2}, .break_force = 30}});
+        hung.joints.push_back({4, {}, {.kind = JointKind::ball, .anchor = {1.5, 0, 1}}});
+        hung.springs.push_back({.a = 3, .b = 6, .anchor_b = Vec3::Zero(), .stiffness = 300, .damping = 1});
+        EXPECT_TRUE(holds(expectSameTold(hung, 120, nothing, partition), joint_broke));
+        expectSameTold(builtInScene("stacks5"), 60, nothing, partition);
+        expectSameTold(builtInScene("drum"), 30, nothing, partition);
+    }
+}
+
 TEST(SharedWorld, KnowsABodyThatFailedOnAllRanks) {
     Scene scene = row(8);
     // Comes by in the step in which it leaves the limits of speed, and is then in the way of others.
@@ -208,6 +325,53 @@ TEST(SharedWorld, GoesOnFromASnapshotOfAllRanksOnOthers) {
     }
 }
 
+TEST(SharedWorld, GoesOnFromThePartsOfAllRanksOnOthers) {
+    // With joints that hold and break, springs, a sensor, a body fixed by a fault, removed ones and new ones.
+    Scene scene = row(10);
+    scene.joints.push_back({2, 1, {.kind = JointKind::ball, .anchor = {0.25, 0, 0.2}, .break_force = 30}});
+    scene.joints.push_back({9, {}, {.kind = JointKind::ball, .anchor = {4, 0, 1}}});
+    scene.springs.push_back({.a = 3, .b = 6, .anchor_b = Vec3::Zero(), .stiffness = 300, .damping = 1});
+    SceneBody gate = ballAt({1.75, 0, 0.1});
+    gate.shape = Box{{0.6, 0.4, 0.3}};
+    gate.sensor = true;
+    gate.fixed = true;
+    scene.bodies.push_back(gate);
+    scene.events.push_back({0.2, SetForce{4, {1e20, 0, 0}}});
+    Settings settings = settingsFor(scene);
+    settings.diagnostics.diagnostics = true;
+    SceneRun alone(scene, settings);
+    alone.world().setEventLevel(EventLevel::all);
+    const auto go = [](SceneRun& run, int steps) {
+        for (int i = 0; i < steps; ++i) run.step();
+    };
+    go(alone, 30);
+    meddle(alone);
+    go(alone, 50);
+    for (const Partition& partition : {Partition{}, by_hash, restless}) {
+        std::vector<SavedPart> parts(4);
+        runRanks(4, [&](Ranks& ranks) {
+            SceneRun run(scene, settings);
+            run.world().setEventLevel(EventLevel::all);
+            run.world().share(ranks, partition);
+            go(run, 30);
+            run.world().gather();
+            EXPECT_THROW(run.savePart(), InputError);
+            meddle(run);
+            go(run, 50);
+            parts[static_cast<std::size_t>(ranks.rank())] = {run.savePart(), "part"};
+        });
+        SceneRun whole = SceneRun::restoreParts(parts);
+        EXPECT_TRUE(whole.save() == alone.save());
+        EXPECT_THROW(SceneRun::restoreParts(std::span(parts).first(3)), InputError);
+        std::swap(parts[1], parts[2]);
+        EXPECT_THROW(SceneRun::restoreParts(parts), InputError);
+        parts[1] = parts[2];
+        EXPECT_THROW(SceneRun::restoreParts(parts), InputError);
+        parts[1].bytes.pop_back();
+        EXPECT_THROW(SceneRun::restoreParts(parts), InputError);
+    }
+}
+
 /// The text of the error of a call.
 template <class Call>
 std::string errorOf(const Call& call) {
@@ -228,17 +392,6 @@ TEST(SharedWorld, RefusesWhatItCannotDo) {
                       world.share(ranks, {.kind = PartitionKind::grid, .parts = {3, 1, 1}});
                   }),
                   "a cut into 3x1x1 regions is not one for 2 ranks; their product must be 2");
-        Settings measured = world.settings();
-        measured.diagnostics.diagnostics = true;
-        world.setSettings(measured);
-        EXPECT_EQ(errorOf([&] { world.share(ranks); }),
-                  "a world that measures diagnostics cannot be shared among ranks yet; switch the setting off, or run "
-                  "it on one rank");
-        measured.diagnostics.diagnostics = false;
-        world.setSettings(measured);
-        world.setEventLevel(EventLevel::changes);
-        EXPECT_NE(errorOf([&] { world.share(ranks); }).find("notes events"), std::string::npos);
-        world.setEventLevel(EventLevel::none);
         world.share(ranks, {.kind = PartitionKind::x});
         run.step();
         const std::string text =

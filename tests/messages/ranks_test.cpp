@@ -4,6 +4,7 @@
 #include <chrono>
 #include <numeric>
 #include <string>
+#include <thread>
 
 #include "cairn/ranks.h"
 #include "cairn/types.h"
@@ -83,8 +84,31 @@ TEST(Ranks, WaitForMessagesThatAreLateOnPurpose) {
              [](Ranks& ranks) {
                  for (int round = 0; round < 5; ++round) gatherAll(ranks, round);
              },
-             {.per_message = 0.002});
+             {.per_message = 0.002, .jitter = 0.001});
     EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(10));
+}
+
+TEST(Ranks, SayForWhomTheyWaitedTooLong) {
+    std::atomic<int> lost = 0;
+    const auto work = [&](Ranks& ranks) {
+        EXPECT_THROW(ranks.setPatience(0), InputError);
+        ranks.setPatience(ranks.rank() == 2 ? 0.02 : 60);
+        gatherAll(ranks, 1);
+        if (ranks.rank() == 1) std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        try {
+            for (;;) gatherAll(ranks, 1);
+        } catch (const RankLostError&) {
+            ++lost;
+            throw;
+        }
+    };
+    try {
+        runRanks(3, work);
+        FAIL();
+    } catch (const RankLateError& error) {
+        EXPECT_STREQ(error.what(), "rank 2 waited 0.02 s for rank 1, in round 2, and gave up");
+    }
+    EXPECT_EQ(lost, 2);
 }
 
 TEST(Ranks, RefuseNumbersAndDelaysThatCannotBe) {
@@ -92,6 +116,7 @@ TEST(Ranks, RefuseNumbersAndDelaysThatCannotBe) {
     EXPECT_THROW(runRanks(0, nothing), InputError);
     EXPECT_THROW(runRanks(1025, nothing), InputError);
     EXPECT_THROW(runRanks(1, nothing, {.per_message = -1}), InputError);
+    EXPECT_THROW(runRanks(1, nothing, {.jitter = -1}), InputError);
 }
 
 TEST(Partition, IsNamed) {

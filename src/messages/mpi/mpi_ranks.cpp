@@ -8,7 +8,11 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <thread>
 #endif
 
 namespace cairn {
@@ -28,6 +32,21 @@ namespace {
 /// MPI counts with 32 bits: longer messages go in pieces.
 constexpr std::size_t largest_piece = std::size_t{1} << 30U;
 
+/// Bytes of a message that go along with its size: most are that short and need no second one.
+constexpr std::size_t first_bytes = 4096 - sizeof(std::uint64_t);
+
+/// Reading the clock takes longer than asking whether a message came.
+constexpr std::uint64_t tests_between_looks = 256;
+
+/// How a message begins.
+struct Opening {
+    std::uint64_t size;  ///< of the message [bytes]
+    std::array<std::byte, first_bytes> first;
+};
+
+/// Tags of openings and of what follows them.
+enum Tag { opening = 0, following = 1 };
+
 int rankOfWorld() {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -40,10 +59,10 @@ int sizeOfWorld() {
     return size;
 }
 
-/// Calls use(first byte, count) for the pieces of a message.
+/// Calls use(first byte, count) for the pieces of what follows the first bytes of a message.
 template <class Use>
 void forPieces(std::vector<std::byte>& message, const Use& use) {
-    for (std::size_t begin = 0; begin < message.size(); begin += largest_piece) {
+    for (std::size_t begin = first_bytes; begin < message.size(); begin += largest_piece) {
         use(message.data() + begin, static_cast<int>(std::min(largest_piece, message.size() - begin)));
     }
 }
@@ -63,24 +82,81 @@ class MpiRanks final : public Ranks {
   private:
     void deliver(Messages& out, Messages& in) override {
         const auto count = static_cast<std::size_t>(size());
-        std::vector<std::uint64_t> sent(count), coming(count);
-        for (std::size_t to = 0; to < count; ++to) sent[to] = out[to].size();
-        MPI_Alltoall(sent.data(), 1, MPI_UINT64_T, coming.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
-        std::vector<MPI_Request> requests;
         const auto own = static_cast<std::size_t>(rank());
+        sent_.resize(count);
+        coming_.resize(count);
         for (std::size_t other = 0; other < count; ++other) {
             if (other == own) continue;
-            in[other].resize(coming[other]);
             const int peer = static_cast<int>(other);
-            forPieces(in[other], [&](std::byte* first, int size) {
-                MPI_Irecv(first, size, MPI_BYTE, peer, 0, MPI_COMM_WORLD, &requests.emplace_back());
+            MPI_Irecv(&coming_[other], sizeof(Opening), MPI_BYTE, peer, opening, MPI_COMM_WORLD, &begin(peer));
+            Opening& sent = sent_[other];
+            sent.size = out[other].size();
+            const std::size_t first = std::min(first_bytes, out[other].size());
+            std::copy_n(out[other].begin(), first, sent.first.begin());
+            const auto bytes = static_cast<int>(sizeof(sent.size) + first);
+            MPI_Isend(&sent, bytes, MPI_BYTE, peer, opening, MPI_COMM_WORLD, &begin(peer));
+        }
+        await();
+        for (std::size_t other = 0; other < count; ++other) {
+            if (other == own) continue;
+            const int peer = static_cast<int>(other);
+            const Opening& came = coming_[other];
+            in[other].resize(came.size);
+            std::copy_n(came.first.begin(), std::min<std::size_t>(first_bytes, came.size), in[other].begin());
+            forPieces(in[other], [&](std::byte* first, int bytes) {
+                MPI_Irecv(first, bytes, MPI_BYTE, peer, following, MPI_COMM_WORLD, &begin(peer));
             });
-            forPieces(out[other], [&](std::byte* first, int size) {
-                MPI_Isend(first, size, MPI_BYTE, peer, 0, MPI_COMM_WORLD, &requests.emplace_back());
+            forPieces(out[other], [&](std::byte* first, int bytes) {
+                MPI_Isend(first, bytes, MPI_BYTE, peer, following, MPI_COMM_WORLD, &begin(peer));
             });
         }
-        MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+        await();
     }
+
+    MPI_Request& begin(int peer) {
+        peers_.push_back(peer);
+        return requests_.emplace_back(MPI_REQUEST_NULL);
+    }
+
+    /// Waits for all that was begun. @throws RankLateError naming whom it waited for in vain
+    void await() {
+        const auto count = static_cast<int>(requests_.size());
+        if (!std::isfinite(patience())) {
+            MPI_Waitall(count, requests_.data(), MPI_STATUSES_IGNORE);
+        } else {
+            awaitInTime(count);
+        }
+        requests_.clear();
+        peers_.clear();
+    }
+
+    void awaitInTime(int count) {
+        const auto begun = std::chrono::steady_clock::now();
+        for (std::uint64_t tests = 1;; ++tests) {
+            int done = 0;
+            MPI_Testall(count, requests_.data(), &done, MPI_STATUSES_IGNORE);
+            if (done != 0) return;
+            if (tests % tests_between_looks != 0) continue;
+            std::this_thread::yield();
+            const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begun;
+            if (waited.count() > patience()) tellLate(unanswered());
+        }
+    }
+
+    /// The ranks that something is still awaited of.
+    std::vector<int> unanswered() {
+        std::vector<int> late;
+        for (std::size_t i = 0; i < requests_.size(); ++i) {
+            int done = 0;
+            MPI_Request_get_status(requests_[i], &done, MPI_STATUS_IGNORE);
+            if (done == 0 && std::ranges::find(late, peers_[i]) == late.end()) late.push_back(peers_[i]);
+        }
+        return late;
+    }
+
+    std::vector<Opening> sent_, coming_;  ///< [ranks]
+    std::vector<MPI_Request> requests_;
+    std::vector<int> peers_;  ///< [requests]
 };
 
 }  // namespace
