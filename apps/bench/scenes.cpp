@@ -48,7 +48,8 @@ class Measurement {
         std::vector<double> step_ms;
         std::vector<double> energies;
         std::vector<double> processor_ms;
-        for (std::size_t i = 0; i < frames; ++i) {
+        const double end = static_cast<double>(frames) - 1e-6;
+        for (std::size_t i = 0; run.world().time() * simulation_steps_per_second < end; ++i) {
             progress(static_cast<double>(i) / static_cast<double>(frames));
             const Stopwatch stopwatch;
             const Statistics step = run.simulationStep();

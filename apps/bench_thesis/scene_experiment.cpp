@@ -41,7 +41,7 @@ struct StepRecord {
 StepRecord simulate(SceneRun& run) {
     StepRecord record;
     const auto begin = std::chrono::steady_clock::now();
-    for (int i = 0; i < run.stepsPerSimulationStep(); ++i) {
+    for (int left = run.stepsPerSimulationStep(); left > 0; --left) {
         run.step();
         const Statistics& statistics = run.world().statistics();
         record.sum.add(statistics);

@@ -15,7 +15,8 @@ struct Measurements {
     double largest_overlap = 0;   ///< of the run [m]
     double sum_mean_overlap = 0;  ///< of the mean overlaps of the frames [m]
 
-    void add(double ms, const Statistics& step);
+    /// @param ms wall time of a step that simulates so many times 1/30 s: more than one where time steps are longer
+    void add(double ms, std::size_t times, const Statistics& step);
 };
 
 }  // namespace cairn::cli

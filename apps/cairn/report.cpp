@@ -43,12 +43,12 @@ std::string formatStages(const Report& report) {
 
 }  // namespace
 
-void Measurements::add(double ms, const Statistics& step) {
-    step_ms.push_back(ms);
+void Measurements::add(double ms, std::size_t times, const Statistics& step) {
+    step_ms.insert(step_ms.end(), times, ms / static_cast<double>(times));
     total.add(step);
     last = step;
     largest_overlap = std::max(largest_overlap, step.largest_overlap);
-    sum_mean_overlap += step.mean_overlap;
+    sum_mean_overlap += static_cast<double>(times) * step.mean_overlap;
 }
 
 std::size_t countLost(const SceneRun& run) {
@@ -79,6 +79,7 @@ Report makeReport(const SceneRun& run, const Measurements& measurements, const W
     report.bodies = run.scene().bodies.size();
     report.threads = world.settings().parallel.threads;
     report.steps = measurements.step_ms.size();
+    report.steps_per_second = world.settings().steps_per_second;
     report.seconds = world.time();
     if (!measurements.step_ms.empty()) {
         std::vector<double> sorted = measurements.step_ms;
@@ -130,6 +131,7 @@ std::string formatTable(const Report& report) {
     std::string text = fmt::format("{}: {} bodies, {} {}\n", report.scene, report.bodies, report.threads,
                                    report.threads == 1 ? "thread" : "threads");
     text += row("simulated", fmt::format("{:.4g} s in {} simulation steps", report.seconds, report.steps));
+    text += row("time steps", fmt::format("{:g} per second", report.steps_per_second));
     text += row("total time", fmt::format("{:.3f} s", report.wall_seconds));
     text +=
         row("ms per simulation step", fmt::format("average {:.2f}, median {:.2f}, 99 % {:.2f}, worst {:.2f}",
@@ -160,6 +162,7 @@ nlohmann::ordered_json toJson(const Report& report) {
         {"bodies", report.bodies},
         {"threads", report.threads},
         {"steps", report.steps},
+        {"steps_per_second", report.steps_per_second},
         {"seconds", report.seconds},
         {"wall_seconds", report.wall_seconds},
         {"ms_per_simulation_step",

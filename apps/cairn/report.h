@@ -18,6 +18,7 @@ struct Report {
     std::size_t bodies = 0;                                          ///< of the scene, fixed ones as well
     std::int64_t threads = 0;                                        ///< that a step may use
     std::size_t steps = 0;                                           ///< simulation steps
+    double steps_per_second = 0;                                     ///< time steps, at the end [1/s]
     double seconds = 0;                                              ///< simulated [s]
     double wall_seconds = 0;                                         ///< of the simulation steps, without recording [s]
     double average_ms = 0, median_ms = 0, p99_ms = 0, worst_ms = 0;  ///< per simulation step

@@ -34,14 +34,13 @@ class Runner {
     Runner(SceneRun run, const OutputOptions& options, const std::filesystem::path& usual_checkpoint, Ranks* ranks)
         : run_(std::move(run)), together_(ranks) {
         if (options.check) run_.world().setChecks(Checks::on);
-        run_.stepsPerSimulationStep();  // refuses a bad number before a file is touched
         if (auto option = parseCheckpoint(options.checkpoint, usual_checkpoint)) checkpoints_.emplace(*option);
         hashed_ = options.hashes;
         records_ = !options.record.empty();
         counts_ = !options.stats.empty();
         const double steps = run_.world().settings().steps_per_second;
-        recorded_.frame_rate = options.frame_rate;
-        recorded_.hashes_per_frame = static_cast<std::size_t>(hashed_ ? std::lround(steps / options.frame_rate) : 0);
+        recorded_.frame_rate = options.frame_rate.value_or(std::min(simulation_steps_per_second, steps));
+        recorded_.hashes_per_frame = static_cast<std::size_t>(hashed_ ? std::lround(steps / recorded_.frame_rate) : 0);
         recorded_.contacts = options.record_contacts;
         recorded_.joints = options.record_joints;
         if (records_ && together_.isShared()) {
@@ -60,11 +59,10 @@ class Runner {
     std::optional<std::string> simulate(Progress::Wish progress_wish) {
         const double duration = run_.scene().duration;
         // A duration such as 0.1 s is not exactly three simulation steps.
-        const auto all = static_cast<std::int64_t>(std::ceil(duration * simulation_steps_per_second - 1e-6));
-        const std::int64_t done = run_.world().stepCount() / run_.stepsPerSimulationStep();
+        const double all = std::max(1.0, std::ceil(duration * simulation_steps_per_second - 1e-6));
         Progress progress(duration, progress_wish);
         record();
-        for (std::int64_t left = std::max<std::int64_t>(all, 1) - done; left > 0; --left) {
+        while (run_.world().time() * simulation_steps_per_second < all - 1e-6) {
             if (const auto end = together_.firstOf(failure_)) return afterFailure(*end);
             if (together_.anywhere(interrupted())) return interruption();
             step();
@@ -142,8 +140,9 @@ class Runner {
 
     std::string remedy() const { return fmt::format("'cairn resume {}' goes on", checkpoints_->file().string()); }
 
-    /// A simulation step of 1/30 s; frames are recorded within it, too.
+    /// A simulation step of 1/30 s, or longer if the time steps are; frames are recorded within it, too.
     void step() {
+        const double begin = run_.world().time();
         double ms = 0;
         Statistics sum;
         for (int left = run_.stepsPerSimulationStep(); left > 0; --left) {
@@ -152,7 +151,8 @@ class Runner {
             if (records_ && isFrameDue(run_, recorded_.frame_rate)) record();
         }
         if (together_.isShared()) sum = together_.total(sum, run_.world().meanOverlap());
-        measurements_.add(ms, sum);
+        const double simulated = (run_.world().time() - begin) * simulation_steps_per_second;
+        measurements_.add(ms, static_cast<std::size_t>(std::max(1.0, std::round(simulated))), sum);
         if (!counts_) return;
         const WorldSums sums = run_.world().sums();
         tryTo([&] {
@@ -219,15 +219,16 @@ class Runner {
     Statistics since_frame_;             ///< of the same
 };
 
-/// Fewer time steps per second than this the thesis does not allow.
-constexpr double thesis_steps_per_second = 180;
+/// Piles have been tried with so small a part of the time steps that the sizes of bodies ask for.
+constexpr double least_part = 0.25;
 
-void warnOfLongSteps(const Settings& settings) {
-    if (settings.steps_per_second >= thesis_steps_per_second) return;
-    printLine(stderr,
-              fmt::format("cairn: warning: {} time steps per second are fewer than {}: bodies overlap more, and "
-                          "fast ones may pass through each other",
-                          settings.steps_per_second, thesis_steps_per_second));
+void warnOfLongSteps(const World& world) {
+    const double steps = world.settings().steps_per_second;
+    const double usual = world.stepsPerSecondBySize();
+    if (steps >= least_part * usual) return;
+    printLine(stderr, fmt::format("cairn: warning: {} time steps per second are too few for bodies as small as these: "
+                                  "they overlap more, and fast ones may pass through each other; {} would do",
+                                  steps, usual));
 }
 
 }  // namespace
@@ -252,7 +253,7 @@ void refuseSameFiles(const OutputOptions& options, const std::string& input) {
         if (options.hashes) throw InputError("--hashes needs --record, which keeps them");
         if (options.record_contacts) throw InputError("--record-contacts needs --record, which keeps them");
         if (options.record_joints) throw InputError("--record-joints needs --record, which keeps them");
-        if (options.frame_rate != simulation_steps_per_second) throw InputError("--frame-rate needs --record");
+        if (options.frame_rate) throw InputError("--frame-rate needs --record");
     }
     const auto same = [](const std::string& a, const std::string& b) {
         if (a.empty() || b.empty()) return false;
@@ -276,14 +277,13 @@ double requireDuration(double duration) {
 
 int runToTheEnd(SceneRun run, const OutputOptions& options, const std::filesystem::path& usual_checkpoint,
                 Ranks* ranks) {
-    const Settings settings = run.world().settings();
     const bool tells = ranks == nullptr || ranks->rank() == 0;
+    if (tells) warnOfLongSteps(run.world());
     Runner runner(std::move(run), options, usual_checkpoint, ranks);
     if (const auto problem = runner.problem()) {
         if (tells) printError(*problem);
         return run_failed;
     }
-    if (tells) warnOfLongSteps(settings);
     noteInterrupts();
     const bool shows = tells && !options.quiet && !options.json;
     const auto failure = runner.simulate(shows ? Progress::Wish::show : Progress::Wish::hide);

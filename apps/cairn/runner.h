@@ -20,7 +20,7 @@ namespace cairn::cli {
 struct OutputOptions {
     std::string record;
     bool hashes = false;
-    double frame_rate = simulation_steps_per_second;
+    std::optional<double> frame_rate;  ///< default: 30, or one per time step if there are fewer
     bool record_contacts = false;
     bool record_joints = false;
     std::string stats;

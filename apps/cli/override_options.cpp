@@ -30,7 +30,7 @@ void addOverrideOptions(CLI::App& command, OverrideOptions& options) {
         ->check(CLI::IsMember(std::vector<std::string>(presetNames().begin(), presetNames().end())));
     command.add_option("--threads", options.threads, "Threads of a step; default: all cores");
     command.add_option("--steps-per-second", options.steps_per_second,
-                       "Time steps per simulated second; default: the preset's");
+                       "Time steps per simulated second; default: by the preset and the sizes of the bodies");
     command.add_option("--set", options.fields, "Set a field of the settings; see 'cairn settings'. Repeatable")
         ->type_name("FIELD=VALUE")
         ->allow_extra_args(false);

@@ -30,11 +30,7 @@ Settings settingsAt(const DialEnds& ends, double value, const Settings& now) {
             const auto* a = std::get_if<double>(&from);
             const auto* b = std::get_if<double>(&to);
             if (a == nullptr || *a <= 0 || *b <= 0) continue;
-            double number = between(*a, *b, value);
-            if (field.name == steps_field) {
-                number = std::round(number / simulation_steps_per_second) * simulation_steps_per_second;
-            }
-            field.set(settings, number);
+            field.set(settings, between(*a, *b, value));
         }
     }
     settings.parallel = now.parallel;

@@ -209,11 +209,13 @@ class SceneRun {
     /// Applies the events that are due, then steps the world once. A shared world is gathered before an event,
     /// and in every step of a scene with drives.
     void step();
-    /// One simulation step of 1/30 s. @return the sum of the statistics of its time steps
+    /// One simulation step: the time steps until one ends at the next thirtieth of a second or later.
+    /// @return the sum of the statistics of its time steps
     Statistics simulationStep();
     /// The same, noting World::stateHash() after each of its time steps.
     Statistics simulationStep(std::vector<std::uint64_t>& hashes);
-    /// Time steps of one simulation step.
+    /// Time steps of the next simulation step: always the same if their number per second is a multiple of 30, one if
+    /// it is less than 30.
     int stepsPerSimulationStep() const;
 
     /// The run as it is: scene, world, ids and the events that are still to come. @source docs/snapshots.md

@@ -319,6 +319,9 @@ class World {
     double time() const;             ///< simulated time [s]
     std::int64_t stepCount() const;  ///< time steps done
     const Settings& settings() const;
+    /// Time steps per second that the default of Settings::steps_per_second takes for the bodies that move now, or took
+    /// when the world took its first step with such bodies [1/s]; a quarter of them is what piles have been tried with.
+    double stepsPerSecondBySize() const;
     /// Takes effect at the next step. @throws InputError as the constructor
     void setSettings(const Settings& settings);
 

@@ -1385,10 +1385,14 @@ class Settings(_Record):
         integration: IntegrationSettings = ...,
         parallel: ParallelSettings = ...,
         diagnostics: DiagnosticsSettings = ...,
+        steps_by_size: bool = ...,
     ) -> None: ...
     @property
     def steps_per_second(self) -> float:
-        """Time steps per simulated second, 30 to 1e6 [1/s]."""
+        """Time steps per simulated second, 1e-3 to 1e6 [1/s]."""
+    @property
+    def steps_by_size(self) -> bool:
+        """Whether steps_per_second is for bodies of 0.12 m under 10 m/s² and others get a power of two times as many when the world takes its first step."""
     @property
     def detection(self) -> DetectionSettings:
         """Broad and narrow phase."""
@@ -2257,6 +2261,9 @@ class World:
     @property
     def time(self) -> float:
         """Simulated time [s]."""
+    @property
+    def steps_per_second_by_size(self) -> float:
+        """Time steps per second that the sizes of the bodies that move ask for [1/s]."""
     @property
     def step_count(self) -> int:
         """Time steps done."""

@@ -63,7 +63,7 @@ def run(
     steps_per_second: Optional[float] = None,
     settings: Optional[Mapping[str, object]] = None,
     hashes: bool = False,
-    frame_rate: float = _core.simulation_steps_per_second,
+    frame_rate: Optional[float] = None,
     contacts: bool = False,
     joints: bool = False,
     after_frame: Optional[Callable[[_core.SceneRun], None]] = None,
@@ -75,7 +75,7 @@ def run(
     - record: file for a recording.
     - preset, steps_per_second [1/s], settings: override the scene's, as "threads" or "iterations".
     - hashes: whether every time step's state hash is recorded, so that verify_recording() compares each.
-    - frame_rate: frames of the recording per simulated second, at most one per time step.
+    - frame_rate: frames of the recording per simulated second, at most one per time step; None = 30, if there are so many.
     - contacts, joints: whether contacts with impulses and forces of joints are recorded.
     - after_frame: called with the run after each frame, recorded or not.
 
@@ -89,7 +89,8 @@ def run(
         scene_run.set_duration(duration)
     # A duration such as 0.1 s is not exactly three simulation steps.
     simulation_steps = max(math.ceil(scene_run.scene.duration * _core.simulation_steps_per_second - 1e-6), 1)
-    steps = simulation_steps * scene_run.steps_per_simulation_step
+    if frame_rate is None:
+        frame_rate = min(_core.simulation_steps_per_second, chosen.steps_per_second)
     options = _core.RecordingOptions(
         hashes_per_frame=round(chosen.steps_per_second / frame_rate) if hashes else 0,
         frame_rate=frame_rate,
@@ -102,7 +103,8 @@ def run(
         Path(record).unlink(missing_ok=True)
         writer = _core.RecordingWriter(record, scene_run.scene, chosen, options)
         writer.append(_core.capture_frame(scene_run, what=options))
-    total, seconds = _simulate(scene_run, steps, writer, options, after_frame)
+    end = (simulation_steps - 1e-6) / _core.simulation_steps_per_second
+    total, seconds = _simulate(scene_run, end, writer, options, after_frame)
     if writer is not None:
         writer.close()
     return Result(scene_run, total, seconds, Recording(record) if record is not None else None)
@@ -110,7 +112,7 @@ def run(
 
 def _simulate(
     scene_run: _core.SceneRun,
-    steps: int,
+    end: float,
     writer: Optional[_core.RecordingWriter],
     options: _core.RecordingOptions,
     after_frame: Optional[Callable[[_core.SceneRun], None]],
@@ -119,7 +121,7 @@ def _simulate(
     since_frame = _core.Statistics()
     hashes: list[int] = []
     seconds = 0.0
-    for _ in range(steps):
+    while scene_run.world.time < end:
         begin = time.perf_counter()
         scene_run.step()
         seconds += time.perf_counter() - begin

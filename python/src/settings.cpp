@@ -110,14 +110,28 @@ Settings settingsReplaced(const py::object& self, const py::kwargs& changes) {
 
 void bindAllSettings(py::module_& module) {
     Record<Settings> record(module, "Settings", "All settings of a world, one record per stage.");
-    record.field("steps_per_second", &Settings::steps_per_second, "Time steps per simulated second, 30 to 1e6 [1/s].")
+    record
+        .fieldBy(
+            "steps_per_second",
+            [](const Settings& self) { return py::float_(static_cast<double>(self.steps_per_second)); },
+            [](Settings& self, py::handle value) { self.steps_per_second = value.cast<double>(); },
+            "Time steps per simulated second, 1e-3 to 1e6 [1/s].")
         .field("detection", &Settings::detection, "Broad and narrow phase.")
         .field("correction", &Settings::correction, "Penetration correction.")
         .field("resolution", &Settings::resolution, "Contact resolution and shock propagation.")
         .field("sleep", &Settings::sleep, "Sleeping and gravity damping.")
         .field("integration", &Settings::integration, "Motion of free bodies.")
         .field("parallel", &Settings::parallel, "Threads.")
-        .field("diagnostics", &Settings::diagnostics, "What a step measures besides.");
+        .field("diagnostics", &Settings::diagnostics, "What a step measures besides.")
+        .fieldBy(
+            "steps_by_size", [](const Settings& self) { return py::bool_(self.steps_per_second.isBySize()); },
+            [](Settings& self, py::handle value) {
+                const double number = self.steps_per_second;
+                self.steps_per_second = value.cast<bool>() ? StepRate::bySize(number) : StepRate(number);
+            },
+            "Whether steps_per_second is for bodies of 0.12 m under 10 m/s² and others get a power of two times as "
+            "many "
+            "when the world takes its first step.");
     py::class_<Settings>& settings = record.finish();
     settings.def_property_readonly("time_step", &Settings::timeStep, "The length of a time step [s].")
         .def_static("preset", &Settings::preset, py::arg("preset"), py::arg("steps_per_second") = 0.0,

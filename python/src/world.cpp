@@ -134,6 +134,8 @@ void bindTime(WorldClass& world) {
             },
             py::arg("steps") = 1, "So many time steps, without the interpreter's lock. Raises InvariantError.")
         .def_property_readonly("time", on(&World::time), "Simulated time [s].")
+        .def_property_readonly("steps_per_second_by_size", on(&World::stepsPerSecondBySize),
+                               "Time steps per second that the sizes of the bodies that move ask for [1/s].")
         .def_property_readonly("step_count", on(&World::stepCount), "Time steps done.")
         .def_property("settings", on(&World::settings), on(&World::setSettings),
                       "Takes effect at the next step. Raises InputError.")

@@ -131,8 +131,9 @@ def test_runs_are_kept_and_go_on(tmp_path: Path) -> None:
     for other in others:
         other.step(50)
         assert other.world.state_hash() == run.world.state_hash()
+    steps = run.steps_per_simulation_step
     statistics, hashes = run.hashed_simulation_step()
-    assert len(hashes) == run.steps_per_simulation_step and hashes[-1] == run.world.state_hash()
+    assert len(hashes) == steps and hashes[-1] == run.world.state_hash()
     assert statistics.contacts > 0 and len(run.ids) == 7
 
 

@@ -7,6 +7,7 @@
 #include "cairn/scene.h"
 #include "scene/body_title.h"
 #include "scene/drives.h"
+#include "world/step_rate.h"
 
 namespace cairn {
 namespace {
@@ -23,9 +24,10 @@ double stepsPerSecond(const Scene& scene, const SettingOverrides& overrides) {
     for (const auto& [name, text] : overrides.fields) {
         if (name != steps_field) continue;
         setFieldFromText(scratch, name, text);
-        if (overrides.steps_per_second && *overrides.steps_per_second != scratch.steps_per_second) {
+        const double given = scratch.steps_per_second;
+        if (overrides.steps_per_second && *overrides.steps_per_second != given) {
             throw InputError(fmt::format("{} is given twice, as {} and as {}; give it once", steps_field,
-                                         *overrides.steps_per_second, scratch.steps_per_second));
+                                         *overrides.steps_per_second, given));
         }
     }
     if (overrides.steps_per_second) setField(scratch, steps_field, *overrides.steps_per_second);
@@ -53,6 +55,15 @@ double weakestGravity(const Scene& scene) {
         if (magnitude > 0 && (weakest == 0 || magnitude < weakest)) weakest = magnitude;
     }
     return weakest;
+}
+
+/// What the sizes of the scene's bodies ask for.
+int stepExponent(const Scene& scene) {
+    std::vector<double> extents;
+    for (const SceneBody& body : scene.bodies) {
+        if (!body.fixed && !body.motion) extents.push_back(middleExtent(body.shape));
+    }
+    return cairn::stepExponent(extents, gravities(scene).front().norm());
 }
 
 /// Runs something and puts what it is about before the text of its errors.
@@ -194,6 +205,7 @@ struct BodyAction {
 Settings settingsFor(const Scene& scene, const SettingOverrides& overrides) {
     const Preset preset = overrides.preset.value_or(scene.preset.value_or(Preset::performance));
     Settings settings = Settings::preset(preset, stepsPerSecond(scene, overrides), weakestGravity(scene));
+    settings = withKnownSteps(settings, stepExponent(scene));
     for (const auto& [name, value] : scene.settings) {
         if (name != steps_field) setField(settings, name, value);
     }
@@ -203,7 +215,8 @@ Settings settingsFor(const Scene& scene, const SettingOverrides& overrides) {
     return settings;
 }
 
-SceneRun::SceneRun(Scene scene, const Settings& settings) : scene_(std::move(scene)), world_(settings) {
+SceneRun::SceneRun(Scene scene, const Settings& settings)
+    : scene_(std::move(scene)), world_(withKnownSteps(settings, stepExponent(scene_))) {
     std::stable_sort(scene_.events.begin(), scene_.events.end(),
                      [](const SceneEvent& a, const SceneEvent& b) { return a.time < b.time; });
     const MaterialIds materials = addMaterials(scene_, world_);
@@ -265,15 +278,11 @@ void SceneRun::step() {
 }
 
 int SceneRun::stepsPerSimulationStep() const {
-    const double steps_per_second = world_.settings().steps_per_second;
-    const double steps = std::round(steps_per_second / simulation_steps_per_second);
-    if (steps < 1 || std::abs(steps * simulation_steps_per_second - steps_per_second) > 1e-9 * steps_per_second) {
-        const double below = std::max(1.0, std::floor(steps_per_second / simulation_steps_per_second));
-        throw InputError(fmt::format(
-            "steps_per_second is {}; simulation steps of 1/30 s need a multiple of 30, such as {} or {}",
-            steps_per_second, below * simulation_steps_per_second, (below + 1) * simulation_steps_per_second));
-    }
-    return static_cast<int>(steps);
+    // With a tolerance of a millionth: step 8 of 240 ends at 1/30 s, whatever 8/240 is rounded to.
+    const double now = world_.time() * simulation_steps_per_second;
+    const double next = std::floor(now + 1e-6) + 1;
+    const double steps = (next - now) * world_.settings().steps_per_second / simulation_steps_per_second;
+    return static_cast<int>(std::max(1.0, std::ceil(steps - 1e-6)));
 }
 
 Statistics SceneRun::simulationStep() {

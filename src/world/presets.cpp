@@ -14,8 +14,17 @@ namespace {
 constexpr std::array<std::string_view, 4> preset_names = {"performance", "accuracy", "thesis", "thesis_accuracy"};
 
 /// Time steps per second that a preset's thresholds are given for.
-double ownSteps(Preset preset) {
-    return preset == Preset::accuracy || preset == Preset::thesis_accuracy ? 960 : 240;
+StepRate ownSteps(Preset preset) {
+    switch (preset) {
+        case Preset::performance:
+            return StepRate::bySize(240);
+        case Preset::accuracy:
+            return StepRate::bySize(960);
+        case Preset::thesis_accuracy:
+            return 960;
+        default:
+            return 240;
+    }
 }
 
 /// The defaults. @param scale |g|Δt as a multiple of that with 10 m/s² and the preset's own time step; below likewise
@@ -94,9 +103,12 @@ Preset presetNamed(std::string_view name) {
 }
 
 Settings Settings::preset(Preset preset, double steps_per_second, double gravity) {
-    const double own_steps = ownSteps(preset);
+    const StepRate own_steps = ownSteps(preset);
     Settings s;
-    setField(s, "steps_per_second", steps_per_second == 0 ? own_steps : steps_per_second);
+    if (steps_per_second != 0)
+        setField(s, "steps_per_second", steps_per_second);
+    else
+        s.steps_per_second = own_steps;
     if (!(gravity >= 0 && std::isfinite(gravity))) {
         throw InputError(fmt::format("gravity is {} m/s²; it must be finite and at least 0", gravity));
     }

@@ -29,7 +29,8 @@ struct RollbackData {
     std::optional<GravityLaw> gravity_law;
     std::vector<DrivenBody> driven;
     std::optional<FrameMotion> frame;
-    bool launched = false;
+    bool launched = false, sized = false;
+    std::int32_t step_exponent = 0;
     std::int64_t steps = 0, steps_at_start = 0;
     double time = 0, time_at_start = 0;
     std::vector<std::uint32_t> contact_generation;  ///< StepData::generation

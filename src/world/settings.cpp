@@ -71,11 +71,11 @@ SettingField stepsPerSecond() {
     return {"steps_per_second",
             "time",
             "1/s",
-            "time steps per simulated second",
-            30,
+            "time steps per simulated second; not given, those of performance and accuracy follow the bodies' sizes",
+            1e-3,
             1e6,
             {},
-            [](const Settings& s) -> SettingValue { return s.steps_per_second; },
+            [](const Settings& s) -> SettingValue { return static_cast<double>(s.steps_per_second); },
             [](Settings& s, const SettingValue& value) { s.steps_per_second = std::get<double>(value); }};
 }
 

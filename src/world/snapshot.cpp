@@ -31,6 +31,7 @@ void saveSettings(const Settings& settings, ByteWriter& out) {
         if (const auto* number = std::get_if<double>(&value)) out.put(*number);
         if (const auto* name = std::get_if<std::string>(&value)) out.putText(*name);
     }
+    out.put(static_cast<std::uint8_t>(settings.steps_per_second.isBySize()));
 }
 
 SettingValue loadSettingValue(ByteReader& in) {
@@ -62,6 +63,7 @@ Settings loadSettings(ByteReader& in) {
             in.refuse(error.what());
         }
     }
+    if (in.get<std::uint8_t>() != 0) settings.steps_per_second = StepRate::bySize(settings.steps_per_second);
     return settings;
 }
 

@@ -7,6 +7,7 @@
 
 #include "world/division.h"
 #include "world/motions.h"
+#include "world/step_rate.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -106,6 +107,7 @@ Vec3 World::globalAcceleration() const {
 }
 
 void World::step() {
+    if (!isDivided()) settleSteps(*state_);
     stepWorld(*state_);
 }
 
@@ -121,6 +123,11 @@ std::int64_t World::stepCount() const {
     return state_->steps;
 }
 
+double World::stepsPerSecondBySize() const {
+    const int exponent = state_->sized ? state_->step_exponent : stepExponentOf(*state_).value_or(0);
+    return withKnownSteps(Settings{}, exponent).steps_per_second;
+}
+
 const Settings& World::settings() const {
     return state_->settings;
 }
@@ -128,7 +135,7 @@ const Settings& World::settings() const {
 void World::setSettings(const Settings& settings) {
     requireWhole(*state_, "World::setSettings");
     validate(settings, lastingGravity(state_->gravity, state_->gravity_law) + state_->global_acceleration);
-    state_->applySettings(settings);
+    state_->applySettings(state_->sized ? withKnownSteps(settings, state_->step_exponent) : settings);
 }
 
 }  // namespace cairn

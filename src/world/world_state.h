@@ -170,6 +170,8 @@ struct WorldState {
     bool launched = false;  ///< a user gave a body a velocity or a place since the last step
     std::int64_t steps = 0;
     double time = 0;                  ///< [s]
+    bool sized = false;               ///< bodies have told how many time steps they need
+    std::int32_t step_exponent = 0;   ///< they need 2^this times as many as the usual ones
     std::int64_t steps_at_start = 0;  ///< step count when the present time step length began to hold
     double time_at_start = 0;         ///< time at that step [s]
     StepData data;

@@ -99,7 +99,7 @@ TEST(Bodies, AQuaternionIsNormalised) {
 }
 
 TEST(Loads, ImpulsesForcesAndTorquesActAtTheirPoint) {
-    Ground g;
+    Ground g(Settings::preset(Preset::performance, 240));
     g.world.setGravity(Vec3::Zero());
     const BodyId ball =
         g.world.addBody({.shape = Sphere{1}, .material = g.oak, .mass = 2, .pose = {Vec3(0, 0, 9), {1, 0, 0, 0}}});

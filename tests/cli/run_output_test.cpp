@@ -33,10 +33,11 @@ TEST_F(CommandLine, jsonIsOneObjectWithAllKeys) {
     ASSERT_EQ(done.code, 0) << done.error;
     EXPECT_EQ(done.error, "");
     const json report = json::parse(done.out);
-    EXPECT_EQ(keysOf(report), (std::set<std::string>{"scene", "bodies", "threads", "steps", "seconds", "wall_seconds",
-                                                     "ms_per_simulation_step", "real_time", "stages_ms", "contacts",
-                                                     "iterations", "corrected_contacts", "displaced_bodies",
-                                                     "overlap_mm", "energy_J", "asleep", "lost", "state_hash"}));
+    EXPECT_EQ(keysOf(report),
+              (std::set<std::string>{"scene", "bodies", "threads", "steps", "steps_per_second", "seconds",
+                                     "wall_seconds", "ms_per_simulation_step", "real_time", "stages_ms", "contacts",
+                                     "iterations", "corrected_contacts", "displaced_bodies", "overlap_mm", "energy_J",
+                                     "asleep", "lost", "state_hash"}));
     EXPECT_EQ(keysOf(report["ms_per_simulation_step"]), (std::set<std::string>{"average", "median", "p99", "worst"}));
     EXPECT_EQ(keysOf(report["iterations"]), (std::set<std::string>{"global", "shock"}));
     EXPECT_EQ(keysOf(report["overlap_mm"]), (std::set<std::string>{"largest", "mean", "last"}));
@@ -78,7 +79,7 @@ TEST_F(CommandLine, recordsForcesAndFramesAtAnyRate) {
     EXPECT_EQ(cairn({"run", "tower:3", "--record", recorded.string(), "--frame-rate", "1e9"}).code, 2);
 }
 
-TEST_F(CommandLine, timeStepsBeyondTheThesisAreWarnedOf) {
+TEST_F(CommandLine, farTooLongTimeStepsAreWarnedOfWithTheNumberThatWouldDo) {
     const auto errorsAt = [&](const char* steps_per_second) {
         const Finished done =
             cairn({"run", "tower:2", "--steps-per-second", steps_per_second, "--duration", "0.1", "--json"});
@@ -86,9 +87,24 @@ TEST_F(CommandLine, timeStepsBeyondTheThesisAreWarnedOf) {
         EXPECT_TRUE(json::accept(done.out)) << done.out;
         return done.error;
     };
-    EXPECT_NE(errorsAt("30").find("warning: 30 time steps per second are fewer than 180"), std::string::npos);
-    EXPECT_NE(errorsAt("150").find("warning: 150 time steps"), std::string::npos);
-    EXPECT_EQ(errorsAt("180"), "");
+    const std::string few = errorsAt("50");
+    EXPECT_NE(few.find("warning: 50 time steps per second are too few"), std::string::npos) << few;
+    EXPECT_NE(few.find("240 would do"), std::string::npos) << few;
+    EXPECT_EQ(errorsAt("60"), "");
+}
+
+TEST_F(CommandLine, anyNumberOfTimeStepsRunsForAsLong) {
+    for (const char* steps : {"7.5", "29", "100", "1000"}) {
+        const std::string recording = file(std::string("at") + steps + ".h5");
+        const Finished done =
+            cairn({"run", "tower:2", "--steps-per-second", steps, "--duration", "2", "--json", "--record", recording});
+        EXPECT_EQ(done.code, 0) << done.error;
+        const json report = json::parse(done.out);
+        EXPECT_EQ(report["steps_per_second"], std::stod(steps));
+        EXPECT_GE(report["seconds"], 2 - 1e-9) << steps;
+        EXPECT_LT(report["seconds"], 2 + 1 / std::stod(steps)) << steps;
+        EXPECT_NEAR(report["steps"].get<double>(), 60, 4) << steps;
+    }
 }
 
 /// Copies a recording with one number changed: where body 2 was in frame 10, which ends with time step 80.

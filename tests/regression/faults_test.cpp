@@ -254,7 +254,7 @@ TEST(Extremes, AMassRatioOfAMillionNeitherExplodesNorSinks) {
 }
 
 TEST(Extremes, TimeStepsFromAMicrosecondToAThirtiethGiveNoGarbage) {
-    for (const double rate : {30.0, 60.0, 180.0, 1e4, 1e6}) {
+    for (const double rate : {20.0, 30.0, 60.0, 180.0, 1e4, 1e6}) {
         Ground g(Settings::preset(Preset::performance, rate));
         const BodyId box = g.box(0.1, Vec3(0, 0, 0.05));
         const BodyId ball = g.add(Sphere{0.05}, Vec3(1, 0, 0.0501));
@@ -265,7 +265,7 @@ TEST(Extremes, TimeStepsFromAMicrosecondToAThirtiethGiveNoGarbage) {
         EXPECT_NEAR(g.height(ball), 0.05, 5e-3) << rate;
         EXPECT_NEAR(g.world.time(), seconds, 1e-9) << rate;
     }
-    EXPECT_THROW(Settings::preset(Preset::performance, 29), InputError);
+    EXPECT_THROW(Settings::preset(Preset::performance, 0.9e-3), InputError);
     EXPECT_THROW(Settings::preset(Preset::performance, 1.1e6), InputError);
 }
 

@@ -97,7 +97,7 @@ Result run(const Plan& plan) {
         const Scene scene = builtInScene(fmt::format("cradle_swing:5:{}", aside));
         for (int refinement = 1; refinement <= finest; refinement *= 2) {
             Settings settings = settingsFor(scene);
-            settings.steps_per_second *= refinement;
+            settings.steps_per_second = refinement * settings.steps_per_second;
             const EnergyError error = swing(scene, settings, periods, plan);
             const std::string setup = fmt::format("{}, {}", scene.name, timeStepText(settings.steps_per_second));
             const std::size_t first = result.quantities.size();

@@ -1,0 +1,30 @@
+/// @file How many time steps a second has, by the sizes of the bodies.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "cairn/shape.h"
+#include "world/world_state.h"
+
+namespace cairn {
+
+/// The middle one of the three extents that a shape has along the axes of its frame [m].
+double middleExtent(const Shape& shape);
+
+/// The power of two that the number of time steps for bodies of 0.12 m under 10 m/s² is multiplied by.
+/// @param extents of the bodies that move [m]; none = 0 is returned. They are sorted
+/// @param gravity magnitude [m/s²]; 0 counts as 10
+int stepExponent(std::span<double> extents, double gravity);
+
+/// Settings with a number of time steps that is known; the speed thresholds stay the same multiples of what a body
+/// falls within one. Settings whose number does not follow the sizes stay as they are.
+Settings withKnownSteps(const Settings& settings, int exponent);
+
+/// Asks the bodies that move how many time steps they need, if there are any. @pre all bodies are here
+std::optional<int> stepExponentOf(const WorldState& world);
+
+/// Makes the number of time steps known when the world takes its first step with bodies that move.
+void settleSteps(WorldState& world);
+
+}  // namespace cairn
