@@ -1,13 +1,11 @@
 #include <cmath>
-#include <limits>
 #include <unordered_map>
 
 #include "cairn/recording.h"
+#include "record/layout.h"
 
 namespace cairn {
 namespace {
-
-const Vec3 nowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
 
 /// @tparam AnyFrame Frame or FramePart
 template <class AnyFrame>
@@ -37,9 +35,9 @@ void captureJoints(const SceneRun& run, Frame& frame) {
         const JointId id{static_cast<std::uint32_t>(i), 0};
         const bool there = run.world().contains(id);
         const JointInfo joint = there ? run.world().joint(id) : JointInfo{};
-        frame.joint_point.push_back(there ? joint.anchor_a : nowhere);
-        frame.joint_force.push_back(there ? joint.force : nowhere);
-        frame.joint_torque.push_back(there ? joint.torque : nowhere);
+        frame.joint_point.push_back(there ? joint.anchor_a : layout::nowhere);
+        frame.joint_force.push_back(there ? joint.force : layout::nowhere);
+        frame.joint_torque.push_back(there ? joint.torque : layout::nowhere);
     }
 }
 
@@ -57,7 +55,7 @@ Frame captureFrame(const SceneRun& run, const Statistics& statistics, const Reco
     const std::vector<BodyId>& ids = run.ids();
     Frame frame;
     frame.time = world.time();
-    frame.position.assign(ids.size(), nowhere);
+    frame.position.assign(ids.size(), layout::nowhere);
     frame.orientation.assign(ids.size(), Quat::Identity());
     frame.linear_velocity.assign(ids.size(), Vec3::Zero());
     frame.angular_velocity.assign(ids.size(), Vec3::Zero());

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "cairn/statistics.h"
+#include "cairn/types.h"
 
 namespace cairn::layout {
 
@@ -26,6 +28,9 @@ inline constexpr const char* parts_attribute = "parts";
 inline constexpr const char* mark_attribute = "mark";
 inline constexpr const char* rank_attribute = "rank";
 inline constexpr std::string_view part_format_name = "cairn recording part";
+
+/// What stands for places and forces of what is no longer there.
+inline const Vec3 nowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
 
 inline constexpr const char* scene = "scene";        ///< the scene file's text
 inline constexpr const char* settings = "settings";  ///< a group with one attribute per field

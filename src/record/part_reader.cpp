@@ -5,20 +5,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <tuple>
 
 #include "record/attributes.h"
 #include "record/file_check.h"
+#include "record/layout.h"
 #include "record/part_series.h"
 #include "record/recording_file.h"
 
 namespace cairn {
 
 namespace {
-
-const Vec3 nowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
 
 /// Rows of which at least one is in every chunk.
 constexpr hsize_t rows_apart = 1024;
@@ -35,14 +33,14 @@ void permute(List& list, const std::vector<std::size_t>& order) {
 
 Frame emptyFrame(const RecordingInfo& info) {
     Frame frame;
-    frame.position.assign(info.bodies, nowhere);
+    frame.position.assign(info.bodies, layout::nowhere);
     frame.orientation.assign(info.bodies, Quat::Identity());
     frame.linear_velocity.assign(info.bodies, Vec3::Zero());
     frame.angular_velocity.assign(info.bodies, Vec3::Zero());
     frame.asleep.assign(info.bodies, 0);
     if (!info.joints) return frame;
     for (auto* values : {&frame.joint_point, &frame.joint_force, &frame.joint_torque}) {
-        values->assign(info.scene.joints.size(), nowhere);
+        values->assign(info.scene.joints.size(), layout::nowhere);
     }
     return frame;
 }
