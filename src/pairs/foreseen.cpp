@@ -159,12 +159,8 @@ Pose PairAhead::fallenEndOf(BodyIndex i, const BodyAhead& ahead) const {
     return end;
 }
 
-bool PairAhead::mayCross() const {
-    if (!isAny()) return false;
-    const bool surface_a = surfaceOf(bodies_.shape[pair_.a]) != nullptr;
-    const bool surface_b = surfaceOf(bodies_.shape[pair_.b]) != nullptr;
-    if (surface_a == surface_b) return false;
-    return way() > crossing_part * bodies_.r_min[surface_a ? pair_.b : pair_.a];
+bool PairAhead::passesFar(BodyIndex solid) const {
+    return way() > crossing_part * bodies_.r_min[solid];
 }
 
 /// Where the middle of a part passes through the surface.

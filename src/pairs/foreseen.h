@@ -8,6 +8,7 @@
 
 #include "body/body_storage.h"
 #include "broad_phase/broad_phase.h"
+#include "geometry/geometry.h"
 #include "narrow_phase/narrow_phase.h"
 #include "parallel/function_ref.h"
 
@@ -86,7 +87,13 @@ class PairAhead {
     /// that they have now lead there [m, W].
     void forEachAtEnd(Manifold& manifold, FunctionRef<void(const Vec3&, const Vec3&, double)> use) const;
     /// Whether one is a surface, and they move so far past each other that a solid could be through it in the end.
-    bool mayCross() const;
+    bool mayCross() const {
+        if (!isAny()) return false;
+        // Most pairs have none, and this is quickly told.
+        const bool surface_a = surfaceOf(bodies_.shape[pair_.a]) != nullptr;
+        const bool surface_b = surfaceOf(bodies_.shape[pair_.b]) != nullptr;
+        return surface_a != surface_b && passesFar(surface_a ? pair_.b : pair_.a);
+    }
     /// Calls use(point, normal, distance), as above, for where the middle of a solid, or of a part of it, would pass
     /// through a surface within the step: the contact of a ball as thick as the part with the plane of the triangle
     /// that is in its way. On rough ground what is nearest now does not stop a body that goes elsewhere. @pre
@@ -102,6 +109,7 @@ class PairAhead {
         const BodyAhead& ground_ahead;
     };
 
+    bool passesFar(BodyIndex solid) const;
     bool meetsWith(const BodyAhead* a, const BodyAhead* b, double depth) const;
     Pose endOf(BodyIndex i, const BodyAhead& ahead) const;
     Pose fallenEndOf(BodyIndex i, const BodyAhead& ahead) const;

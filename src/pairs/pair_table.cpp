@@ -61,16 +61,22 @@ void collideNear(const BodyStorage& bodies, const BodyPair& pair, const Detectio
     if (foreseen && !would_meet && !ahead.wouldMeet()) contacts.resize(first);
 }
 
-/// Appends the contacts of one pair.
-void collidePair(const BodyStorage& bodies, const BodyPair& pair, const DetectionRange& range, const PairAhead& ahead,
-                 Manifold& manifold, std::vector<FoundContact>& contacts) {
-    collideNear(bodies, pair, range, ahead, manifold, contacts);
-    if (!ahead.mayCross()) return;
+/// Appends the contacts with triangles that the middle of a body, or of a part of it, would pass through.
+/// @pre ahead.mayCross()
+void collideCrossed(const BodyStorage& bodies, const BodyPair& pair, const DetectionRange& range,
+                    const PairAhead& ahead, std::vector<FoundContact>& contacts) {
     const double allowed_overlap = range.overlapOf(bodies.r_min[pair.a], bodies.r_min[pair.b]);
     ahead.forEachCrossing([&](const Vec3& point, const Vec3& normal, double distance) {
         const double gap = std::max(0.0, distance);
         appendTightly(contacts, {pair.a, pair.b, point, normal, gap, allowed_overlap, gap / range.foresight.time});
     });
+}
+
+/// Appends the contacts of one pair.
+void collidePair(const BodyStorage& bodies, const BodyPair& pair, const DetectionRange& range, const PairAhead& ahead,
+                 Manifold& manifold, std::vector<FoundContact>& contacts) {
+    collideNear(bodies, pair, range, ahead, manifold, contacts);
+    if (ahead.mayCross()) collideCrossed(bodies, pair, range, ahead, contacts);
 }
 
 /// Appends the contacts that keep the bodies of one pair apart and that it does not have yet: those that would be found
