@@ -20,6 +20,8 @@ class WriterProcess {
     explicit WriterProcess(const std::function<int(const std::function<void()>&)>& work) {
         int ends[2];
         if (pipe(ends) != 0) throw IoError("no pipe");
+        // A writer that runs far ahead of who reads with it gets so long a file that reading it takes minutes.
+        if (fcntl(ends[1], F_SETPIPE_SZ, 4096) < 0) throw IoError("no small pipe");
         id_ = fork();
         if (id_ == 0) {
             close(ends[0]);
