@@ -66,17 +66,13 @@ std::string markdown() {
         "`settings` of a scene file. The speeds of the presets are given for 10 m/s² and the preset's own steps per\n"
         "second; both scale them.\n\n"
         "## Time steps\n\n"
-        "How often bodies must be looked at depends on how long they take to fall by their own size. So the numbers "
-        "of\n"
-        "`performance` and `accuracy` are for bodies of 0.12 m, the thesis's, under 10 m/s². Unless a number is given\n"
-        "they are multiplied by 2ᵏ when a world takes its first step with bodies that move: k = −round(½·log₂(d·10 "
-        "m/s² /\n"
-        "(0.12 m·|g|))), where d is the median over these bodies of the middle one of a body's three extents. Grains "
-        "of 1 mm\n"
-        "get 1920, blocks of 1 m 60. The number is saved and changes only when a program sets another one; the "
-        "presets\n"
-        "of the thesis have the same for all sizes. `cairn run` warns of less than a quarter of the number for the "
-        "sizes.\n";
+        "How often bodies must be looked at depends on how long they take to fall by their own size. So the numbers\n"
+        "of `performance` and `accuracy` are for bodies of 0.12 m, the thesis's, under 10 m/s². Unless a number is\n"
+        "given they are multiplied by 2ᵏ when a world takes its first step with bodies that move:\n"
+        "k = −round(½·log₂(d·10 m/s² / (0.12 m·|g|))), where d is the median over these bodies of the middle one of\n"
+        "a body's three extents. Grains of 1 mm get 1920, blocks of 1 m 60. The number is saved and changes only\n"
+        "when a program sets another one; the presets of the thesis have the same for all sizes. `cairn run` warns\n"
+        "of less than a quarter of the number for the sizes.\n";
     for (const std::string_view stage : stages()) {
         const Row top = headings();
         text += fmt::format("\n## {}\n\n| {} |\n|", stage, fmt::join(top, " | "));

@@ -147,21 +147,6 @@ auto placeOf(const Event& event) {
     return std::tuple(row, event.kind == EventKind::joint_broke ? event.joint : JointId{}, in_row);
 }
 
-/// Calls visit(member) for all members. @tparam AnyEvent maybe const
-template <class AnyEvent, class Visit>
-void forMembers(AnyEvent& event, const Visit& visit) {
-    visit(event.kind);
-    visit(event.reason);
-    visit(event.a);
-    visit(event.b);
-    visit(event.contacts);
-    visit(event.point);
-    visit(event.normal);
-    visit(event.distance);
-    visit(event.impulse);
-    visit(event.joint);
-}
-
 /// What a body began on the rank that it came to, it ended on the one that it left: then it lasted.
 Event joined(const Event& one, const Event& other) {
     const bool ended = one.kind == EventKind::contact_ended || one.kind == EventKind::sensor_left;
@@ -178,13 +163,13 @@ bool isCounterpart(EventKind one, EventKind other) {
 void gatherEvents(Ranks& ranks, EventLog& log) {
     std::vector<std::byte> message;
     for (const Event& event : log.events) {
-        forMembers(event, [&](const auto& member) { pack(message, member); });
+        forEventMembers(event, [&](const auto& member) { pack(message, member); });
     }
     std::vector<Event> all;
     for (const auto& told : tellAll(ranks, message)) {
         for (Unpacker in(told); !in.isAtEnd();) {
-            forMembers(all.emplace_back(),
-                       [&](auto& member) { member = in.get<std::remove_reference_t<decltype(member)>>(); });
+            forEventMembers(all.emplace_back(),
+                            [&](auto& member) { member = in.get<std::remove_reference_t<decltype(member)>>(); });
         }
     }
     std::ranges::stable_sort(all, {}, [](const Event& e) { return placeOf(e); });

@@ -13,4 +13,20 @@ void beginEvents(WorldState& world);
 /// world. @pre the stages have run, the reasons of waking are not cleared yet
 void collectEvents(WorldState& world);
 
+/// Calls visit(member) for all members of an event. Snapshots and other ranks get them in this order.
+/// @tparam AnyEvent maybe const
+template <class AnyEvent, class Visit>
+void forEventMembers(AnyEvent& event, const Visit& visit) {
+    visit(event.kind);
+    visit(event.reason);
+    visit(event.a);
+    visit(event.b);
+    visit(event.contacts);
+    visit(event.point);
+    visit(event.normal);
+    visit(event.distance);
+    visit(event.impulse);
+    visit(event.joint);
+}
+
 }  // namespace cairn

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "world/byte_stream.h"
+#include "world/events.h"
 #include "world/saved_shapes.h"
 #include "world/world_state.h"
 
@@ -20,6 +21,13 @@ inline void field(ByteReader& in, bool& value) {
     const auto byte = in.get<std::uint8_t>();
     if (byte > 1) in.refuse("a switch that is neither on nor off");
     value = byte == 1;
+}
+
+template <class Stream, class Id>
+requires std::is_same_v<std::remove_const_t<Id>, BodyId> || std::is_same_v<std::remove_const_t<Id>, JointId>
+void field(Stream& stream, Id& id) {
+    field(stream, id.index);
+    field(stream, id.generation);
 }
 
 template <PlainBytes T>
@@ -222,19 +230,7 @@ void statisticsFields(Stream& stream, AnyStatistics& statistics) {
 
 template <class Stream, class AnyEvent>
 void eventFields(Stream& stream, AnyEvent& event) {
-    field(stream, event.kind);
-    field(stream, event.reason);
-    field(stream, event.a.index);
-    field(stream, event.a.generation);
-    field(stream, event.b.index);
-    field(stream, event.b.generation);
-    field(stream, event.contacts);
-    field(stream, event.point);
-    field(stream, event.normal);
-    field(stream, event.distance);
-    field(stream, event.impulse);
-    field(stream, event.joint.index);
-    field(stream, event.joint.generation);
+    forEventMembers(event, [&](auto& member) { field(stream, member); });
 }
 
 }  // namespace cairn
