@@ -166,6 +166,19 @@ void writeScene(const Scene& scene, const std::filesystem::path& file);
 /// The scene as the text of a scene file.
 std::string formatScene(const Scene& scene);
 
+/// What lengths, times and masses are multiplied by.
+struct Scales {
+    double length = 1;  ///< > 0
+    double time = 1;    ///< > 0
+    double mass = 1;    ///< > 0
+};
+/// The same scene larger, slower and heavier: every value by its unit, the settings that it gives among them. Where
+/// lengths are multiplied by the square of the time, gravity stays what it is and everything happens alike; with
+/// {4ⁿ, 2ⁿ, 4³ⁿ}, which lose no digit, bit for bit after the same number of steps.
+/// @throws InputError for scales that are not finite or not above 0. What becomes too small or too large is refused where
+/// the scene is used.
+Scene scaled(Scene scene, const Scales& scales);
+
 /// A built-in scene, or a family of them.
 struct BuiltInScene {
     std::string_view name;  ///< as on the command line: "stacks5", "tower:N"

@@ -2048,6 +2048,20 @@ class Scene(_Record):
     def settings(self) -> tuple[tuple[str, SettingValue], ...]:
         """Names and values of other settings than the preset's."""
 
+class Scales(_Record):
+    """What lengths, times and masses are multiplied by."""
+
+    def __init__(self, length: float = ..., time: float = ..., mass: float = ...) -> None: ...
+    @property
+    def length(self) -> float:
+        """> 0"""
+    @property
+    def time(self) -> float:
+        """> 0"""
+    @property
+    def mass(self) -> float:
+        """> 0"""
+
 class SettingOverrides(_Record):
     """What overrides a scene's own settings."""
 
@@ -2714,6 +2728,10 @@ def built_in_scenes() -> tuple[BuiltInScene, ...]:
     """All built-in scenes, in the order in which they are shown."""
 def built_in_scene(name: str) -> Scene:
     """Such as 'cage384' or 'tower:20'. Raises InputError for an unknown name or a bad number."""
+def scaled(scene: Scene, scales: Scales) -> Scene:
+    """The same scene larger, slower and heavier: every value by its unit. Where lengths are multiplied by the
+    square of the time gravity stays, and everything happens alike; with Scales(4**n, 2**n, 64**n) bit for
+    bit after the same number of steps. Raises InputError."""
 def is_built_in_scene(name: str) -> bool:
     """Whether a built-in scene has the name."""
 def settings_for(scene: Scene, overrides: Optional[SettingOverrides] = ...) -> Settings:

@@ -31,6 +31,26 @@ TEST_F(CommandLine, everyCommandHasHelpAndVersion) {
     }
 }
 
+TEST_F(CommandLine, scenesAreWrittenAsFilesAsTheyAreOrScaled) {
+    EXPECT_EQ(cairn({"scenes", "tower:3", "--json", file("as_it_is.json")}).code, 0);
+    EXPECT_EQ(read("as_it_is.json"), formatScene(builtInScene("tower:3")));
+    EXPECT_EQ(cairn({"scenes", file("as_it_is.json"), "--json", file("large.json"), "--scale", "4,2,64"}).code, 0);
+    EXPECT_EQ(read("large.json"), formatScene(scaled(builtInScene("tower:3"), {4, 2, 64})));
+    const auto expectRefused = [&](std::vector<std::string> words, const std::string& said) {
+        words.insert(words.begin(), "scenes");
+        const Finished refused = cairn(words);
+        EXPECT_NE(refused.code, 0) << said;
+        EXPECT_NE(refused.error.find(said), std::string::npos) << refused.error;
+    };
+    expectRefused({"tower:3"}, "--json");
+    expectRefused({"--json", file("x.json")}, "SCENE");
+    expectRefused({"tower:3", "--scale", "4,2,64"}, "--json");
+    expectRefused({"tower:3", "--json", file("x.json"), "--scale", "4,2"}, "--scale");
+    expectRefused({"tower:3", "--json", file("x.json"), "--scale", "4,0,64"}, "the scale of times is 0");
+    expectRefused({"tower:3", "--json", file("x.json"), "--scale", "1e-9,1,1"}, "/bodies/");
+    expectRefused({"no_such_scene", "--json", file("x.json")}, "no_such_scene");
+}
+
 TEST_F(CommandLine, companionsAnswerByTheirCommands) {
     for (const std::string command : {"view", "bench", "bench thesis", "validate"}) {
         std::vector<std::string> words{command.substr(0, command.find(' '))};

@@ -12,6 +12,10 @@ namespace cairn::golden {
 Scene groundScene(std::string name);
 /// A dynamic body of oak.
 SceneBody bodyOf(const Shape& shape, const Vec3& position);
+/// What an action gives, in a scene whose values were multiplied. @param N·s
+inline Vec3 impulse(const Vec3& newton_seconds, const Scales& by) {
+    return newton_seconds * (by.mass * by.length / by.time);
+}
 /// A number that looks random, from −1 to 1, for each index.
 double scatter(std::size_t index);
 /// One of the six kinds of shapes that move, in turn.

@@ -33,11 +33,11 @@ SceneBody wallAt(const Vec3& normal, double distance) {
 
 constexpr double box_size = 0.2;
 
-BodyDescription ballOf(double radius, const Vec3& position, const Vec3& velocity) {
+BodyDescription ballOf(double radius, const Vec3& position, const Vec3& velocity, const Scales& by) {
     BodyDescription ball;
-    ball.shape = Sphere{radius};
-    ball.pose.position = position;
-    ball.linear_velocity = velocity;
+    ball.shape = Sphere{radius * by.length};
+    ball.pose.position = position * by.length;
+    ball.linear_velocity = velocity * (by.length / by.time);
     return ball;
 }
 
@@ -166,8 +166,8 @@ Scene settlingStacks() {
     return scene;
 }
 
-const std::array<Action, 1> throw_ball = {{{0.4, [](SceneRun& run) {
-                                                run.world().addBody(ballOf(0.15, {-0.4, 0, 0.6}, {6, 0, 0}));
+const std::array<Action, 1> throw_ball = {{{0.4, [](SceneRun& run, const Scales& by) {
+                                                run.world().addBody(ballOf(0.15, {-0.4, 0, 0.6}, {6, 0, 0}, by));
                                             }}}};
 
 Scene changingPile() {
@@ -182,36 +182,38 @@ Scene changingPile() {
 }
 
 const std::array<Action, 8> change_bodies = {{
-    {0.02, [](SceneRun& run) { run.world().removeBody(run.ids()[5]); }},
+    {0.02, [](SceneRun& run, const Scales&) { run.world().removeBody(run.ids()[5]); }},
     {0.05,
-     [](SceneRun& run) {
-         for (int i = 0; i < 6; ++i) run.world().addBody(ballOf(0.08, {0.1 * i, 0.1, 1.1 + 0.1 * (i % 2)}, {0, 0, -2}));
+     [](SceneRun& run, const Scales& by) {
+         for (int i = 0; i < 6; ++i)
+             run.world().addBody(ballOf(0.08, {0.1 * i, 0.1, 1.1 + 0.1 * (i % 2)}, {0, 0, -2}, by));
      }},
     {0.1,
-     [](SceneRun& run) {
+     [](SceneRun& run, const Scales&) {
          run.world().removeBody(run.ids()[1]);
          run.world().removeBody(run.ids()[11]);
      }},
-    {0.13, [](SceneRun& run) { run.world().setFixed(run.ids()[20], true); }},
+    {0.13, [](SceneRun& run, const Scales&) { run.world().setFixed(run.ids()[20], true); }},
     {0.16,
-     [](SceneRun& run) {
+     [](SceneRun& run, const Scales& by) {
          World& world = run.world();
-         const BodyId added = world.addBody(ballOf(0.1, {-0.3, 0.2, 0.3}, {3, 0, 0}));
-         world.setConstantForce(added, {5, 0, 0});
-         world.applyImpulseAt(run.ids()[30], {1, 2, 0}, world.centreOfMass(run.ids()[30]) + Vec3(0, 0, 0.05));
+         const BodyId added = world.addBody(ballOf(0.1, {-0.3, 0.2, 0.3}, {3, 0, 0}, by));
+         world.setConstantForce(added, impulse({5, 0, 0}, by) / by.time);
+         world.applyImpulseAt(run.ids()[30], impulse({1, 2, 0}, by),
+                              world.centreOfMass(run.ids()[30]) + Vec3(0, 0, 0.05) * by.length);
      }},
     {0.2,
-     [](SceneRun& run) {
-         run.world().setPose(run.ids()[36], {{0.2, 0.2, 1.5}, Quat(0.9, 0.1, 0.3, 0.2)});
+     [](SceneRun& run, const Scales& by) {
+         run.world().setPose(run.ids()[36], {Vec3(0.2, 0.2, 1.5) * by.length, Quat(0.9, 0.1, 0.3, 0.2)});
      }},
-    {0.22, [](SceneRun& run) { run.world().setFixed(run.ids()[20], false); }},
+    {0.22, [](SceneRun& run, const Scales&) { run.world().setFixed(run.ids()[20], false); }},
     {0.25,
-     [](SceneRun& run) {
+     [](SceneRun& run, const Scales& by) {
          World& world = run.world();
          for (const BodyId id : world.bodies()) {
              if (id.generation > 0) world.removeBody(id);
          }
-         world.setGravity({1, 0, -10});
+         world.setGravity(Vec3(1, 0, -10) * (by.length / by.time / by.time));
      }},
 }};
 

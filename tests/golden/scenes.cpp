@@ -38,11 +38,11 @@ Scene catapult(std::string_view name) {
     return scene;
 }
 
-constexpr std::array<Action, 1> push_tower = {{{0.1, [](SceneRun& run) {
-                                                    run.world().applyImpulse(run.ids()[12], {2, 0.5, 0});
+constexpr std::array<Action, 1> push_tower = {{{0.1, [](SceneRun& run, const Scales& by) {
+                                                    run.world().applyImpulse(run.ids()[12], impulse({2, 0.5, 0}, by));
                                                 }}}};
-constexpr std::array<Action, 1> push_wall = {{{0.1, [](SceneRun& run) {
-                                                   run.world().applyImpulse(run.ids()[14], {2, 0.5, 0});
+constexpr std::array<Action, 1> push_wall = {{{0.1, [](SceneRun& run, const Scales& by) {
+                                                   run.world().applyImpulse(run.ids()[14], impulse({2, 0.5, 0}, by));
                                                }}}};
 
 constexpr auto table = std::to_array<GoldenScene>({
@@ -110,8 +110,8 @@ Settings settingsOf(const Scene& scene, Kind kind, std::int64_t threads) {
     return settings;
 }
 
-SceneRun start(const GoldenScene& golden, Kind kind, std::int64_t threads) {
-    const Scene scene = golden.make();
+SceneRun start(const GoldenScene& golden, Kind kind, std::int64_t threads, const Scales& scales) {
+    const Scene scene = scaled(golden.make(), scales);
     return SceneRun(scene, settingsOf(scene, kind, threads));
 }
 
@@ -149,15 +149,15 @@ const GoldenScene& goldenScene(std::string_view name) {
     return *found;
 }
 
-GoldenRun::GoldenRun(const GoldenScene& golden, Kind kind, std::int64_t threads)
-    : left_(golden.actions), run_(start(golden, kind, threads)) {}
+GoldenRun::GoldenRun(const GoldenScene& golden, Kind kind, std::int64_t threads, const Scales& scales)
+    : left_(golden.actions), scales_(scales), run_(start(golden, kind, threads, scales)) {}
 
 void GoldenRun::step() {
     // A time that is a whole number of steps belongs to that step, however it is rounded.
-    const double now = run_.world().time() + 1e-9;
+    const double now = run_.world().time() / scales_.time + 1e-9;
     while (!left_.empty() && left_.front().time <= now) {
         run_.world().gather();
-        left_.front().act(run_);
+        left_.front().act(run_, scales_);
         left_ = left_.subspan(1);
     }
     run_.step();

@@ -26,7 +26,8 @@ std::string_view nameOf(Kind kind);
 /// What happens to a run besides the events that a scene can hold, such as a body that is added.
 struct Action {
     double time;  ///< at the first step that begins then or later [s]
-    void (*act)(SceneRun& run);
+    /// @param scales what the scene's values were multiplied by
+    void (*act)(SceneRun& run, const Scales& scales);
 };
 
 /// The steps after which the state is hashed, ascending.
@@ -53,7 +54,7 @@ const GoldenScene& goldenScene(std::string_view name);
 /// A scene that runs.
 class GoldenRun {
   public:
-    GoldenRun(const GoldenScene& golden, Kind kind, std::int64_t threads);
+    GoldenRun(const GoldenScene& golden, Kind kind, std::int64_t threads, const Scales& scales = {});
 
     /// Acts, then steps the world once.
     void step();
@@ -67,6 +68,7 @@ class GoldenRun {
 
   private:
     std::span<const Action> left_;
+    Scales scales_;
     SceneRun run_;
 };
 
