@@ -33,8 +33,8 @@ void wakeUnsupported(const BodyState& bodies, std::span<const std::int32_t> befo
     });
 }
 
-double motionBias(double time_step) {
-    return std::pow(0.9, 240 * time_step);
+double motionBias(const StepLength& step) {
+    return std::pow(0.9, step.usual * step.time);
 }
 
 double initialMotion(const SleepSettings& settings) {
@@ -76,11 +76,11 @@ void fallAsleepTogether(const BodyState& bodies, const MotionState& state, const
     }
 }
 
-void fallAsleep(const BodyState& bodies, const MotionState& state, const SleepSettings& settings, double time_step,
-                const Executor& executor) {
+void fallAsleep(const BodyState& bodies, const MotionState& state, const SleepSettings& settings,
+                const StepLength& step, const Executor& executor) {
     const double threshold = settings.sleep_threshold * settings.sleep_threshold;
     const double limit = initialMotion(settings);
-    const double bias = motionBias(time_step);
+    const double bias = motionBias(step);
     executor.forBlocks(bodies.size(), [&](std::size_t begin, std::size_t end, int) {
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
             if (bodies.isFixed(i) || bodies.asleep[i] != 0) continue;
@@ -92,7 +92,7 @@ void fallAsleep(const BodyState& bodies, const MotionState& state, const SleepSe
                 continue;
             }
             if (!state.together.empty() && state.together[i] != 0) continue;
-            if (isWeaklyPushed(bodies, state, i, threshold, time_step)) continue;
+            if (isWeaklyPushed(bodies, state, i, threshold, step.time)) continue;
             putToSleep(bodies, state, i, threshold);
         }
     });

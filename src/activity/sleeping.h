@@ -37,18 +37,24 @@ struct MotionState {
     std::span<const std::uint8_t> together{};  ///< 1 = sleeps only with others; empty = none does
 };
 
-/// Weight of the history in the averaged motion (3.2.4): 0.9 at 240 steps per second, and the same decay in the same
-/// time at others. @param time_step [s]
-double motionBias(double time_step);
+/// How long a step is.
+struct StepLength {
+    double time = 1.0 / 240;  ///< [s]
+    double usual = 240;       ///< steps per second by the sizes of the bodies [1/s]: the thesis's are for its own
+};
+
+/// Weight of the history in the averaged motion (3.2.4): 0.9 at the usual number of steps per second, and the same decay
+/// in the same time at others.
+double motionBias(const StepLength& step);
 
 /// The value that a new or moved body's averaged motion begins with: its cap (Algorithm 5), three times the threshold,
 /// so that rest must be proven first.
 double initialMotion(const SleepSettings& settings);
 
 /// Algorithm 5 for every awake body. A body with a constant force too weak to show within one step stays awake, since
-/// (3.2.5) holds for every lasting force. @param time_step [s]
-void fallAsleep(const BodyState& bodies, const MotionState& motion, const SleepSettings& settings, double time_step,
-                const Executor& executor);
+/// (3.2.5) holds for every lasting force.
+void fallAsleep(const BodyState& bodies, const MotionState& motion, const SleepSettings& settings,
+                const StepLength& step, const Executor& executor);
 
 /// Puts bodies that sleep only with each other to sleep if all of them would. @pre after fallAsleep()
 void fallAsleepTogether(const BodyState& bodies, const MotionState& motion, const SleepSettings& settings,

@@ -65,7 +65,7 @@ const ShapeEntry& meshEntry();
 const ShapeEntry& heightFieldEntry();
 
 /// Smallest and largest length of a shape [m]: between them no volume, inertia or inverse leaves the range of double,
-/// and tiny_length stays far below any shape.
+/// nor comes near what is not normal.
 inline constexpr double smallest_dimension = 1e-6;
 inline constexpr double largest_dimension = 1e9;
 

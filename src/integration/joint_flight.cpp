@@ -10,31 +10,39 @@ namespace cairn {
 
 namespace {
 
-/// Errors of a flight that are left alone [m or rad]: far below any use, above rounding.
-constexpr double good_enough = 1e-12;
+// Errors are told in radians and as parts of the reach of the smaller body: of 10 cm, these are 1e-12, 1e-10 and 1e-9 m.
 
-/// Errors of the positions that are left to the next flight [m or rad].
-constexpr double remains = 1e-10;
+/// Errors of a flight that are left alone: far below any use, above rounding.
+constexpr double good_enough = 1e-11;
+
+/// Errors of the positions that are left to the next flight.
+constexpr double remains = 1e-9;
 
 /// Errors at the start that are rounding of earlier steps; they go away with those of the flight.
-constexpr double leftover = 1e-9;
+constexpr double leftover = 1e-8;
 
 constexpr int most_iterations = 12;
 
 /// Part of a body's weight that a contact bears at least if it is one on which the body rests.
 constexpr double resting_part = 1e-3;
 
-/// Errors beyond this [m or rad] are taken back in parts, so that nothing is thrown into its neighbours.
-constexpr double large_error = 1e-3;
+/// Errors beyond this are taken back in parts, so that nothing is thrown into its neighbours.
+constexpr double large_error = 1e-2;
 constexpr double part_of_large = 0.2;
 
 bool isAwake(const BodyStorage& bodies, std::span<const BodyIndex> group) {
     return std::ranges::any_of(group, [&](BodyIndex i) { return bodies.asleep[i] == 0; });
 }
 
-double largestOf(std::span<const double> values) {
+/// @param errors of all rows, block after block
+double largestOf(std::span<const JointBlock> blocks, std::span<const double> errors) {
     double largest = 0;
-    for (const double value : values) largest = std::max(largest, std::abs(value));
+    auto error = errors.begin();
+    for (const JointBlock& block : blocks) {
+        for (std::uint32_t i = 0; i < block.size; ++i) {
+            largest = std::max(largest, std::abs(*error++) / unitOf(block, i));
+        }
+    }
     return largest;
 }
 
@@ -47,8 +55,8 @@ void collectErrors(std::span<const JointBlock> blocks, std::vector<double>& erro
 }
 
 /// What a distance to a bound must at least be after a flight: what it was, if it was beyond before.
-double allowed(double at_start) {
-    return at_start < -leftover ? at_start : 0;
+double allowed(double at_start, double unit) {
+    return at_start < -leftover * unit ? at_start : 0;
 }
 
 /// How far ropes and limits are passed.
@@ -57,7 +65,8 @@ double largestBeyond(std::span<const JointBlock> blocks) {
     for (const JointBlock& block : blocks) {
         for (std::uint32_t i = 0; i < block.bounds; ++i) {
             if (block.bound[i].is_motor) continue;
-            largest = std::max({largest, -block.bound[i].to_upper, block.bound[i].to_lower});
+            const double beyond = std::max(-block.bound[i].to_upper, block.bound[i].to_lower);
+            largest = std::max(largest, beyond / unitOf(block, block.bound[i]));
         }
     }
     return largest;
@@ -171,7 +180,7 @@ void JointFlight::fly(const Flight& flight, std::span<Joint> joints, BodyStorage
     }
     moveAgain(flight, bodies);
     collectErrors(flight.blocks, start_error_);
-    if (!(largestOf(start_error_) > leftover)) std::fill(start_error_.begin(), start_error_.end(), 0.0);
+    if (!(largestOf(flight.blocks, start_error_) > leftover)) std::fill(start_error_.begin(), start_error_.end(), 0.0);
     received_.assign(system_.rows(), 0);
     now_.resize(flight.joints.size());
     double left = 0;
@@ -179,7 +188,7 @@ void JointFlight::fly(const Flight& flight, std::span<Joint> joints, BodyStorage
         evaluateAll(flight.joints, joints, bodies, flight.time_step, now_);
         collectErrors(now_, impulses_);
         for (std::size_t i = 0; i < impulses_.size(); ++i) impulses_[i] -= start_error_[i];
-        const double error = largestOf(impulses_);
+        const double error = largestOf(now_, impulses_);
         left = error;
         if (!std::isfinite(error)) break;
         for (double& impulse : impulses_) impulse /= -flight.time_step;
@@ -231,7 +240,7 @@ void JointFlight::moveAgain(const Flight& flight, BodyStorage& bodies) const {
 }
 
 /// Pushes back what passed a rope or a limit in flight; what was beyond it before is left to moveBack().
-/// @return the largest distance beyond [m or rad]
+/// @return the largest distance beyond [rad, or a part of the reach]
 double JointFlight::keepBounds(const Flight& flight) {
     double largest = 0;
     for (std::size_t k = 0; k < flight.blocks.size(); ++k) {
@@ -239,10 +248,11 @@ double JointFlight::keepBounds(const Flight& flight) {
         for (std::uint32_t i = 0; i < block.bounds; ++i) {
             BoundRow& bound = block.bound[i];
             if (bound.is_motor) continue;
-            const double above = allowed(bound.to_upper) - now_[k].bound[i].to_upper;
-            const double below = allowed(-bound.to_lower) + now_[k].bound[i].to_lower;
-            const bool at_upper = bound.impulse < 0 || (bound.impulse == 0 && above > good_enough);
-            const bool at_lower = bound.impulse > 0 || (bound.impulse == 0 && below > good_enough);
+            const double unit = unitOf(block, bound);
+            const double above = allowed(bound.to_upper, unit) - now_[k].bound[i].to_upper;
+            const double below = allowed(-bound.to_lower, unit) + now_[k].bound[i].to_lower;
+            const bool at_upper = bound.impulse < 0 || (bound.impulse == 0 && above > good_enough * unit);
+            const bool at_lower = bound.impulse > 0 || (bound.impulse == 0 && below > good_enough * unit);
             if (!at_upper && !at_lower) continue;
             const double per_impulse = system_.respondAlong(block, bound.row);
             if (!(per_impulse > 0)) continue;
@@ -251,7 +261,7 @@ double JointFlight::keepBounds(const Flight& flight) {
             const double impulse = at_upper ? std::min(sum, 0.0) : std::max(sum, 0.0);
             addResponse(impulse - bound.impulse);
             bound.impulse = impulse;
-            largest = std::max(largest, at_upper ? above : below);
+            largest = std::max(largest, (at_upper ? above : below) / unit);
         }
     }
     return largest;
@@ -270,7 +280,7 @@ void JointFlight::moveBack(const Flight& flight, std::span<const Joint> joints, 
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
         evaluateAll(flight.joints, joints, bodies, flight.time_step, now_);
         collectErrors(now_, impulses_);
-        const double error = std::max(largestOf(impulses_), largestBeyond(now_));
+        const double error = std::max(largestOf(now_, impulses_), largestBeyond(now_));
         if (!(error > remains) || !std::isfinite(error)) return;
         const double part = error > large_error ? std::max(part_of_large, large_error / error) : 1;
         for (std::size_t k = 0; k < flight.bodies.size(); ++k) {

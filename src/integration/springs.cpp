@@ -41,7 +41,8 @@ void applySpring(const Spring& spring, BodyStorage& bodies, double time_step) {
     const End b = endOf(bodies, spring.b, spring.anchor_b);
     const Vec3 between = a.point - b.point;
     const double length = between.norm();
-    if (length < tiny_length) return;
+    // Ends that meet have no direction.
+    if (!(length > tiny_part * spring.rest_length)) return;
     const Vec3 direction = between / length;
     const double speed = direction.dot(a.velocity - b.velocity);
     const double inverse_mass =

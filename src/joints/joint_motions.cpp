@@ -70,7 +70,7 @@ double nearestTurn(double angle, double to) {
 
 JointMotion lengthOf(const JointPlacement& at) {
     const double length = at.apart.norm();
-    const Vec3 direction = length > tiny_length ? Vec3(at.apart / length) : Vec3(Vec3::UnitZ());
+    const Vec3 direction = length > 0 ? Vec3(at.apart / length) : Vec3(Vec3::UnitZ());
     return {length, {direction, at.arm_a.cross(direction), -at.arm_b.cross(direction)}};
 }
 
@@ -98,7 +98,7 @@ JointMotion twistOf(const Joint& joint, const JointPlacement& at) {
 JointMotion swingOf(const JointPlacement& at) {
     const Vec3 across = at.axis_b.cross(at.axis_a);
     const double sine = across.norm();
-    const Vec3 direction = sine > tiny_length ? Vec3(across / sine) : at.side_1;
+    const Vec3 direction = sine > tiny_part ? Vec3(across / sine) : at.side_1;
     return {std::atan2(sine, at.axis_b.dot(at.axis_a)), angularRow(direction)};
 }
 
@@ -138,7 +138,7 @@ SixMotions vectorMotions(const Joint& joint, const JointPlacement& at) {
     const Quat turn = turnInB(joint, at);
     const double sine = turn.vec().norm();
     const double sign = turn.w() < 0 ? -1 : 1;
-    const double per_sine = sine > tiny_length ? 2 * std::atan2(sine, sign * turn.w()) / sine : 2;
+    const double per_sine = sine > tiny_part ? 2 * std::atan2(sine, sign * turn.w()) / sine : 2;
     const Vec3 vector = joint.frame.conjugate() * Vec3(sign * per_sine * turn.vec());
     for (Eigen::Index i = 0; i < 3; ++i) {
         motions[static_cast<std::size_t>(3 + i)] = {vector[i], angularRow(frame.col(i))};

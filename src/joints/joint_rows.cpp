@@ -19,6 +19,19 @@ void beginBlock(const Joint& joint, JointBlock& block) {
     block.ends.clear();
 }
 
+/// The smaller body decides; a coupling has those of the joints that it couples, of which one stands for both.
+double reachOf(const Joint& joint, const BodyStorage& bodies) {
+    double reach = Joint::infinite;
+    for (const BodyIndex i : {joint.a, joint.b}) {
+        if (isMovable(bodies.kind, i)) reach = std::min(reach, bodies.r_max[i]);
+    }
+    return reach < Joint::infinite ? reach : 1;
+}
+
+double unitOf(const Vec3& linear, double reach) {
+    return linear.isZero(0) ? 1 : reach;
+}
+
 /// The axis after which limits of a ball's turn about its axis are reckoned: without the swing.
 bool isTwist(const Joint& joint, const FreeAxis& axis) {
     return joint.kind == JointKind::ball && axis.along == JointAlong::turn_x;
@@ -68,6 +81,15 @@ void addToFixed(const JointBlock& block, const BodyStorage& bodies, Joint& joint
 
 }  // namespace
 
+double unitOf(const JointBlock& block, std::uint32_t row) {
+    // The error of a coupling is one of its second joint.
+    return unitOf(block.ends.empty() ? block.rows[row].linear : block.ends[2].linear, block.reach);
+}
+
+double unitOf(const JointBlock& block, const BoundRow& bound) {
+    return unitOf(bound.row.linear, block.reach);
+}
+
 JointMotion motionOf(const Joint& joint, std::size_t axis, const Pose& a, const Pose& b) {
     const JointPlacement at = placementOf(joint, a, b);
     if (axis < joint.free.size()) return entryOf(joint.kind).motion(joint, at, joint.free[axis]);
@@ -93,6 +115,7 @@ void evaluate(std::span<const Joint> joints, std::uint32_t slot, const BodyStora
               JointBlock& block) {
     const Joint& joint = joints[slot];
     block.joint = slot;
+    block.reach = reachOf(joint, bodies);
     if (entryOf(joint.kind).uses.couples) return evaluateCoupling(joint, joints, bodies, block);
     evaluate(joint, poseOf(bodies, joint.a), poseOf(bodies, joint.b), time_step, block);
 }

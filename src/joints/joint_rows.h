@@ -42,6 +42,7 @@ struct JointBlock {
     std::uint32_t group = 0;  ///< index of its group
     BodyIndex a = 0;
     BodyIndex b = Joint::world;
+    double reach = 1;             ///< of the smaller one that can move, from its centre [m]: compares turns with ways
     std::uint32_t size = 0;       ///< rows whose rate must be zero
     std::uint32_t bounds = 0;     ///< bound rows: the size of bound
     std::uint32_t redundant = 0;  ///< rows that followed from others
@@ -53,6 +54,10 @@ struct JointBlock {
     std::array<double, most_rows> position{};  ///< of the free axes [rad or m]
     Vec3 arm_a = Vec3::Zero();                 ///< from the centre of mass of A to its anchor [m, W]
 };
+
+/// What errors and rates of a row are a part of: the reach where it is about a length, one where about an angle.
+double unitOf(const JointBlock& block, std::uint32_t row);
+double unitOf(const JointBlock& block, const BoundRow& bound);
 
 /// Poses of the bodies of a joint as they are.
 inline Pose poseOf(const BodyStorage& bodies, BodyIndex i) {

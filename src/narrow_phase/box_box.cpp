@@ -2,7 +2,6 @@
 #include <cmath>
 #include <limits>
 
-#include "math/tolerances.h"
 #include "narrow_phase/box_axes.h"
 #include "narrow_phase/features.h"
 #include "narrow_phase/pair_testers.h"
@@ -164,7 +163,7 @@ void cornerContact(const BoxPair& pair, const BoxAxes& axes, double margin, BoxC
         const Closest closest = closestFeatures(pair);
         const double distance = std::sqrt(closest.squared);
         if (!(distance <= margin)) return;
-        if (distance > tiny_length + 1e-9 * pair.smallest()) contact.normal = (closest.on_b - closest.on_a) / distance;
+        if (distance > 1e-9 * pair.smallest()) contact.normal = (closest.on_b - closest.on_a) / distance;
         setSingle(closest.on_a, closest.on_b, distance, contact);
         return;
     }

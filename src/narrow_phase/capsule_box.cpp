@@ -72,7 +72,7 @@ struct Part {
     void cut(const AxisInBox& in, Eigen::Index side) {
         const double centre = in.axis.centre[side];
         const double half = in.axis.half[side];
-        if (std::abs(half) <= tiny_length) {
+        if (std::abs(half) <= tiny_part * in.axis.half.norm()) {
             if (std::abs(centre) > in.half[side]) upper = lower;  // all of it is on one side
             return;
         }
@@ -201,7 +201,7 @@ void capsuleBox(const Capsule& a, const Pose& pose_a, const Box& b, const Pose& 
     if (!(outside <= limit)) return;
     Found found;
     found.points.size = 0;
-    if (outside > tiny_length * (1 + in.half.maxCoeff() + a.length)) {
+    if (outside > tiny_part * (in.half.maxCoeff() + a.length)) {
         addOutside(in, on_box, on_axis - on_box, outside, found);
     } else {
         addPiercing(in, found);

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/tolerances.h"
 #include "narrow_phase/features.h"
 #include "narrow_phase/pair_testers.h"
 
@@ -26,7 +25,7 @@ struct CapsulePair {
 Vec3 normalOf(const CapsulePair& pair, const Vec3& apart, double centres) {
     const double size = pair.a.half.norm() + pair.b.half.norm();
     // Crossing axes leave rounding only; the way out is then perpendicular to both.
-    if (centres > tiny_length + 1e-10 * size) return apart / centres;
+    if (centres > 1e-10 * size) return apart / centres;
     const Vec3 across = pair.a.half.cross(pair.b.half);
     const double sine = across.norm();
     if (sine > 1e-7 * pair.a.half.norm() * pair.b.half.norm()) return across / sine;

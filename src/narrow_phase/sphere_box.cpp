@@ -30,7 +30,7 @@ void sphereBox(const Sphere& a, const Pose& pose_a, const Box& b, const Pose& po
     if (!(squared <= reach * reach)) return;
     const double outside = std::sqrt(squared);
     // So close to the surface rounding decides on the direction.
-    if (outside <= tiny_length * (1 + half.maxCoeff())) return inside(centre, half, a.radius, pose_b, manifold);
+    if (outside <= tiny_part * half.maxCoeff()) return inside(centre, half, a.radius, pose_b, manifold);
     const Vec3 normal = outward / outside;
     const double distance = outside - a.radius;
     manifold.normal = pose_b.orientation * normal;

@@ -17,7 +17,7 @@ void sphereCapsule(const Sphere& a, const Pose& pose_a, const Capsule& b, const 
     if (!(squared <= reach * reach)) return;
     const double outside = std::sqrt(squared);
     // A centre on the axis leaves sideways.
-    const bool on_axis = outside <= tiny_length * (1 + b.length);
+    const bool on_axis = outside <= tiny_part * (b.radius + b.length);
     manifold.normal = on_axis ? axis.unitOrthogonal() : Vec3(outward / outside);
     const double distance = outside - a.radius - b.radius;
     manifold.add(pose_a.position - (a.radius + 0.5 * distance) * manifold.normal, distance);

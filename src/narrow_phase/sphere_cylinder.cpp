@@ -38,7 +38,7 @@ void sphereCylinder(const Sphere& a, const Pose& pose_a, const Cylinder& b, cons
     if (!(squared <= reach * reach)) return;
     const double outside = std::sqrt(squared);
     // So close to the surface rounding decides on the direction.
-    if (outside <= tiny_length * (1 + b.radius + half)) return inside(centre, b, a.radius, pose_b, manifold);
+    if (outside <= tiny_part * (b.radius + half)) return inside(centre, b, a.radius, pose_b, manifold);
     const Vec3 normal = outward / outside;
     const double distance = outside - a.radius;
     manifold.normal = pose_b.orientation * normal;

@@ -13,7 +13,7 @@ void sphereSphere(const Sphere& a, const Pose& pose_a, const Sphere& b, const Po
     if (!(squared <= reach * reach)) return;
     const double centres = std::sqrt(squared);
     // Coincident centres: every direction is as good, so up it is.
-    manifold.normal = centres > tiny_length ? Vec3(from_b / centres) : Vec3::UnitZ();
+    manifold.normal = centres > tiny_part * (a.radius + b.radius) ? Vec3(from_b / centres) : Vec3::UnitZ();
     const double distance = centres - a.radius - b.radius;
     manifold.add(pose_a.position - (a.radius + 0.5 * distance) * manifold.normal, distance);
 }

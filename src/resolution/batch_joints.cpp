@@ -148,7 +148,9 @@ double BatchJointGroup::resolveBounds(std::span<LocalBody> bodies) {
     double largest = 0;
     for (JointBlock& block : system.blocks()) {
         for (std::uint32_t i = 0; i < block.bounds; ++i) {
-            if (!block.bound[i].is_linear) largest = std::max(largest, resolveBound(block, block.bound[i], bodies));
+            if (block.bound[i].is_linear) continue;
+            const double change = resolveBound(block, block.bound[i], bodies);
+            largest = std::max(largest, change * block.reach / unitOf(block, block.bound[i]));
         }
     }
     return largest;

@@ -25,7 +25,7 @@ class BatchJointGroup {
     void project(std::span<LocalBody> bodies);
     /// Adds the change of system.respond() to the bodies, and to the impulses of the joints.
     void applyResponse(std::span<LocalBody> bodies);
-    /// One pass over ropes, limits and motors. @return largest change of a rate [m/s or rad/s]
+    /// One pass over ropes, limits and motors. @return largest change of a rate [m/s], of turns at the body's reach
     double resolveBounds(std::span<LocalBody> bodies);
     /// @param direct what contacts changed of the members by themselves
     void settle(std::span<Twist> direct);
@@ -79,8 +79,8 @@ class BatchJoints {
     void forChanged(const ContactFrame& contact, const Use& use) const;
     /// Takes the masses of the bodies as they are now.
     void factorise(std::span<const LocalBody> bodies);
-    /// Passes over ropes, limits and motors until they hold together. @param threshold rate that may be left
-    /// [m/s or rad/s] @return whether a rate changed by more than that
+    /// Passes over ropes, limits and motors until they hold together. @param threshold rate that may be left [m/s]
+    /// @return whether a rate changed by more than that
     bool resolveBounds(std::span<LocalBody> bodies, double threshold);
     /// Finds the impulses of the joints from the sums of the contacts' impulses, for resolutions that change velocities
     /// in other ways than by push(). @pre no body's mass was changed

@@ -21,6 +21,32 @@ double largestEigenvalue(const Mat6& k, Eigen::Index row) {
     return mean + std::sqrt(half * half + k(row, row + 1) * k(row, row + 1));
 }
 
+/// Of a body of decimetres 1. A factor that rounds nothing and follows the size: equations in two units are then solved
+/// alike whatever the size is.
+double leverOf(const Mat6& k) {
+    int linear = 0;
+    int angular = 0;
+    std::frexp(k.diagonal().head<3>().maxCoeff(), &linear);
+    std::frexp(k.diagonal().tail<3>().maxCoeff(), &angular);
+    constexpr int of_decimetres = 6;
+    return std::ldexp(1.0, (linear - angular + of_decimetres) >> 1);
+}
+
+/// K·x = excess, the rows of turns first.
+template <class Excess>
+auto solved(const Mat6& k, double lever, const Excess& excess) {
+    constexpr double first = 1024;
+    Vec6 unit = Vec6::Ones();
+    unit.tail<3>().setConstant(first * lever);
+    const Mat6 even = unit.asDiagonal() * k * unit.asDiagonal();
+    return (unit.asDiagonal() * even.ldlt().solve(unit.asDiagonal() * excess)).eval();
+}
+
+/// The largest part, turns as ways.
+double largestOf(const Vec6& x, double lever) {
+    return std::max(x.head<3>().cwiseAbs().maxCoeff(), x.tail<3>().cwiseAbs().maxCoeff() / lever);
+}
+
 bool isWithin(const RollingContact& contact, double friction, const Vec6& x) {
     return x[normal_row] > 0 && length2(x, slide_rows) <= friction * x[normal_row] &&
            std::abs(x[spin_row]) <= contact.spinning * x[normal_row] &&
@@ -71,7 +97,7 @@ Vec6 inTurns(const RollingContact& contact, double friction, const Vec6& excess,
     for (int i = 0; i < static_cast<int>(rounds); ++i) {
         const Vec6 before = turns.x;
         turns.turn();
-        if ((turns.x - before).cwiseAbs().maxCoeff() <= 1e-15 * turns.x.cwiseAbs().maxCoeff()) break;
+        if (largestOf(turns.x - before, contact.lever) <= 1e-15 * largestOf(turns.x, contact.lever)) break;
     }
     return turns.x;
 }
@@ -80,7 +106,8 @@ Vec6 inTurns(const RollingContact& contact, double friction, const Vec6& excess,
 
 void RollingContact::setMatrix(const Mat6& matrix) {
     k = matrix;
-    mass = k.ldlt().solve(Mat6::Identity());
+    lever = leverOf(k);
+    mass = solved(k, lever, Mat6::Identity());
     slide_mass = 1 / largestEigenvalue(k, slide_rows);
     roll_mass = 1 / largestEigenvalue(k, roll_rows);
 }
@@ -105,7 +132,7 @@ Vec6 solveRolling(const RollingContact& contact, double static_friction, double 
                   const Vec6& present, RollingRounds rounds) {
     // What is solved in every visit takes the inverse, what is solved once the factorization.
     const Vec6 change =
-        rounds == RollingRounds::few ? Vec6(contact.mass * excess) : Vec6(contact.k.ldlt().solve(excess));
+        rounds == RollingRounds::few ? Vec6(contact.mass * excess) : solved(contact.k, contact.lever, excess);
     const Vec6 rigid = present - change;
     if (rigid.allFinite() && isWithin(contact, static_friction, rigid)) return rigid;
     const Vec6 held = inTurns(contact, static_friction, excess, present, rounds);

@@ -20,6 +20,7 @@ struct RollingContact {
     Mat6 mass = Mat6::Identity();   ///< inverse of k; not finite where there is none
     double slide_mass = 0;          ///< least effective mass of the tangential part [kg]
     double roll_mass = 0;           ///< and least effective inertia of rolling [kg·m²]
+    double lever = 1;               ///< turns times it compare with ways: a power of two, about ten radii [1]
     Vec3 impulse_W = Vec3::Zero();  ///< sum of the angular impulses on A [N·m·s, W]
 
     /// Sets k and what follows from it.

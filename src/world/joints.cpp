@@ -101,7 +101,10 @@ void buildJointBlocks(WorldState& world) {
             JointBlock& block = data.joint_blocks[data.joint_cursor[batchOfGroup(g)]++];
             block.group = static_cast<std::uint32_t>(g);
             evaluate(world.joints, slot, world.bodies, world.settings.timeStep(), block);
-            for (BoundRow& bound : block.bound) bound.slowest = world.settings.resolution.restitution_threshold;
+            for (BoundRow& bound : block.bound) {
+                const double per_metre = unitOf(block, bound) / block.reach;
+                bound.slowest = world.settings.resolution.restitution_threshold * per_metre;
+            }
             notePositions(block, world.joints[slot]);
         }
     }

@@ -243,8 +243,9 @@ void sleepStage(WorldState& world) {
     if (!world.settings.sleep.sleeping || weightless || shaken) return;
     BodyStorage& b = world.bodies;
     const std::span<const std::uint8_t> others = listNotSleeping(world);
-    fallAsleep(b.state(), {b.motion, b.r_max, b.constant_force, b.constant_torque, others}, world.settings.sleep,
-               world.settings.timeStep(), world.executor);
+    const StepLength step{world.settings.timeStep(), std::ldexp(StepLength{}.usual, world.step_exponent)};
+    fallAsleep(b.state(), {b.motion, b.r_max, b.constant_force, b.constant_torque, others}, world.settings.sleep, step,
+               world.executor);
     letJointedSleep(world);
 }
 

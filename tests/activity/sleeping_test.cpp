@@ -30,7 +30,7 @@ struct Fixture {
 
     void sleep(const SleepSettings& settings, double step = time_step) {
         fallAsleep(bodies.state(), {bodies.motion, bodies.r_max, bodies.constant_force, bodies.constant_torque},
-                   settings, step, one_thread);
+                   settings, {.time = step}, one_thread);
     }
 
     BodyStorage bodies;
@@ -124,8 +124,9 @@ TEST(FallingAsleep, FollowsAlgorithm5) {
 }
 
 TEST(FallingAsleep, TheHistoryDecaysAlikeAtAnyTimeStep) {
-    EXPECT_EQ(motionBias(1.0 / 240), 0.9);
-    EXPECT_DOUBLE_EQ(std::pow(motionBias(1.0 / 960), 4), 0.9);
+    EXPECT_EQ(motionBias({.time = 1.0 / 240}), 0.9);
+    EXPECT_DOUBLE_EQ(std::pow(motionBias({.time = 1.0 / 960}), 4), 0.9);
+    EXPECT_EQ(motionBias({.time = 1.0 / 60, .usual = 60}), 0.9);
 }
 
 TEST(FallingAsleep, TheAverageIsCappedSoThatASuddenStopIsNotForgottenTooLate) {
