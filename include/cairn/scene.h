@@ -175,8 +175,8 @@ struct Scales {
 /// The same scene larger, slower and heavier: every value by its unit, the settings that it gives among them. Where
 /// lengths are multiplied by the square of the time, gravity stays what it is and everything happens alike; with
 /// {4ⁿ, 2ⁿ, 4³ⁿ}, which lose no digit, bit for bit after the same number of steps.
-/// @throws InputError for scales that are not finite or not above 0. What becomes too small or too large is refused where
-/// the scene is used.
+/// @throws InputError for scales that are not finite or not above 0. What becomes too small or too large is refused
+/// where the scene is used.
 Scene scaled(Scene scene, const Scales& scales);
 
 /// A built-in scene, or a family of them.

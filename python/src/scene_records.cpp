@@ -181,10 +181,11 @@ void bindFunctions(py::module_& module) {
         "All built-in scenes, in the order in which they are shown.");
     module.def("built_in_scene", &builtInScene, py::arg("name"),
                "Such as 'cage384' or 'tower:20'. Raises InputError for an unknown name or a bad number.");
-    module.def("scaled", &scaled, py::arg("scene"), py::arg("scales"),
-               "The same scene larger, slower and heavier: every value by its unit. Where lengths are multiplied by the\n"
-               "square of the time gravity stays, and everything happens alike; with Scales(4**n, 2**n, 64**n) bit for\n"
-               "bit after the same number of steps. Raises InputError.");
+    module.def(
+        "scaled", &scaled, py::arg("scene"), py::arg("scales"),
+        "The same scene larger, slower and heavier: every value by its unit. Where lengths are multiplied by the\n"
+        "square of the time gravity stays, and everything happens alike; with Scales(4**n, 2**n, 64**n) bit for\n"
+        "bit after the same number of steps. Raises InputError.");
     module.def("is_built_in_scene", &isBuiltInScene, py::arg("name"), "Whether a built-in scene has the name.");
     module.def(
         "settings_for",
