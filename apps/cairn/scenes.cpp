@@ -48,8 +48,8 @@ void addScenes(CLI::App& app, int&) {
         if (options->scene.empty()) return list();
         const Scales scales{options->scale[0], options->scale[1], options->scale[2]};
         const Scene written = scaled(loadScene(options->scene), scales);
-        // No file is written that could not be read, with lengths below a micrometre for instance.
-        parseScene(formatScene(written), options->json);
+        // No file is written that could not be run, with lengths below a micrometre for instance.
+        const SceneRun run(written, settingsFor(written));
         writeScene(written, options->json);
     });
 }

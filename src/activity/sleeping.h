@@ -43,8 +43,8 @@ struct StepLength {
     double usual = 240;       ///< steps per second by the sizes of the bodies [1/s]: the thesis's are for its own
 };
 
-/// Weight of the history in the averaged motion (3.2.4): 0.9 at the usual number of steps per second, and the same decay
-/// in the same time at others.
+/// Weight of the history in the averaged motion (3.2.4): 0.9 at the usual number of steps per second, and the same
+/// decay in the same time at others.
 double motionBias(const StepLength& step);
 
 /// The value that a new or moved body's averaged motion begins with: its cap (Algorithm 5), three times the threshold,

@@ -10,7 +10,8 @@ namespace cairn {
 
 namespace {
 
-// Errors are told in radians and as parts of the reach of the smaller body: of 10 cm, these are 1e-12, 1e-10 and 1e-9 m.
+// Errors are told in radians and as parts of the reach of the smaller body: of 10 cm, these are 1e-12, 1e-10 and 1e-9
+// m.
 
 /// Errors of a flight that are left alone: far below any use, above rounding.
 constexpr double good_enough = 1e-11;

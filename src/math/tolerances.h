@@ -7,8 +7,8 @@ namespace cairn {
 /// body must not count as a support because of rounding.
 inline constexpr double perpendicular_cosine = 1e-3;
 
-/// Lengths below this part of the sizes of what is compared, and sines below it, are treated as zero when a direction is
-/// normalised: rounding would decide on it.
+/// Lengths below this part of the sizes of what is compared, and sines below it, are treated as zero when a direction
+/// is normalised: rounding would decide on it.
 inline constexpr double tiny_part = 1e-11;
 
 }  // namespace cairn
