@@ -1,6 +1,7 @@
 #include "geometry/geometry.h"
 #include "narrow_phase/manifold_check.h"
 #include "narrow_phase/pair_random.h"
+#include "samples.h"
 
 namespace cairn::testing {
 namespace {
@@ -88,7 +89,7 @@ TEST(AllPairs, SwappingGivesTheSameBitsWithTheOppositeNormal) {
 
 TEST(AllPairs, AnyPoseGivesFiniteDistinctPointsAndAUnitNormal) {
     Random random(22);
-    for (int i = 0; i < 200000; ++i) {
+    for (int i = 0; i < samples(200000); ++i) {
         const bool round = random.below(2) == 0;
         const Shape a = round ? roundShape(random) : anyShape(random, 1);
         const Shape b = round ? roundShape(random) : anyShape(random, 1);

@@ -4,6 +4,7 @@
 
 #include "narrow_phase/manifold_check.h"
 #include "narrow_phase/pair_random.h"
+#include "samples.h"
 
 namespace cairn::testing {
 namespace {
@@ -113,7 +114,7 @@ TEST(Reference, KnowsDistancesAndDepths) {
 
 TEST(BoxBox, AgreesWithTheReferenceOn100000Poses) {
     Random random(1);
-    for (int i = 0; i < 100000; ++i) {
+    for (int i = 0; i < samples(100000); ++i) {
         const Box a = random.box(1);
         const Box b = random.below(4) == 0 ? a : random.box(1);
         check(situation(random, a, b));
@@ -123,7 +124,7 @@ TEST(BoxBox, AgreesWithTheReferenceOn100000Poses) {
 
 TEST(AllFinitePairs, AgreeWithTheReference) {
     Random random(2);
-    for (int i = 0; i < 100000; ++i) {
+    for (int i = 0; i < samples(100000); ++i) {
         const Shape a = random.shape(1);
         check(situation(random, a, random.below(4) == 0 ? a : random.shape(1)));
         if (::testing::Test::HasFatalFailure()) FAIL() << "at pose " << i;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "narrow_phase/manifold_check.h"
+#include "samples.h"
 #include "surface_maker.h"
 
 namespace cairn::testing {
@@ -51,7 +52,7 @@ TEST(Surfaces, AreMetByWhateverIsDeepInThem) {
     Random random(5);
     for (const auto& [name, shape] : solids()) {
         if (std::holds_alternative<Compound>(shape)) continue;  // whose middle may be in none of its parts
-        for (int i = 0; i < 2000; ++i) {
+        for (int i = 0; i < samples(2000); ++i) {
             Vec3 at = random.vector(4);
             at.z() = height(at.x(), at.y()) + random.uniform(-0.02, 0.06);
             const Quat turn = random.orientation();
