@@ -132,7 +132,7 @@ bool Selection::widen() {
         findDisturbed(part, scratch);
         part.again = !scratch.taken.empty();
         if (!part.again) return;
-        goBack(part);
+        revert(part);
         takeAroundAlong(part, scratch.taken);
         part.reach *= 4;
         takeTiedAlong(part);
@@ -285,7 +285,7 @@ void Selection::disturb(BodyIndex i, const Vec3& impulse, const Vec3& r, Scratch
 }
 
 /// Undoes the resolution of a part.
-void Selection::goBack(const PartOfBatch& part) {
+void Selection::revert(const PartOfBatch& part) {
     for (std::size_t n = part.body_begin; n < part.body_begin + part.bodies; ++n) {
         bodies().v[part_bodies_[n]] = before_[n].v;
         bodies().w[part_bodies_[n]] = before_[n].w;

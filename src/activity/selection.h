@@ -107,7 +107,7 @@ class Selection {
     void listChosen();
     void findDisturbed(const PartOfBatch& part, Scratch& scratch);
     void disturb(BodyIndex i, const Vec3& impulse, const Vec3& r, Scratch& scratch);
-    void goBack(const PartOfBatch& part);
+    void revert(const PartOfBatch& part);
     void wakePushed(const PartOfBatch& part);
     BatchView viewOf(const PartOfBatch& part);
     template <class Work>

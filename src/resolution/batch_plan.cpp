@@ -11,8 +11,8 @@ namespace cairn {
 
 namespace {
 
-/// Batches with at least so many contacts are swept by colours. In smaller ones the order of the contacts, from body to
-/// body, carries impulses farther in a sweep.
+/// Batches with at least so many contacts are solved by colours. In smaller ones the order of the contacts, from body
+/// to body, carries impulses farther in a sweep.
 constexpr std::size_t wide_contacts = 320;
 
 /// A sweep that still changes speeds by more than lets bodies into each other by this multiple of the overlap allowed
@@ -96,8 +96,8 @@ BatchKind kindOf(const BatchView& batch, std::span<const Contact> contacts, cons
     kind.safe_way = safe_multiple * least_allowed;
     kind.framed = kind.framed || kind.rolling > 0;
     const bool rests = sums.motion <= settings.restitution_threshold * settings.restitution_threshold * sums.mass;
-    kind.may_leap = rests && !kind.framed && isChain(batch, contacts, bodies);
-    kind.coloured = batch.contacts.size() >= wide_contacts && !kind.may_leap;
+    kind.may_step_directly = rests && !kind.framed && isChain(batch, contacts, bodies);
+    kind.coloured = batch.contacts.size() >= wide_contacts && !kind.may_step_directly;
     return kind;
 }
 

@@ -1,7 +1,7 @@
 #include "resolution/body_direction.h"
 
 #include "math/arrays.h"
-#include "resolution/swept_batch.h"
+#include "resolution/pgs_batch.h"
 
 namespace cairn {
 

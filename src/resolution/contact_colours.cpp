@@ -6,7 +6,7 @@ namespace cairn {
 
 namespace {
 
-/// Colours that fit into a word; pairs of bodies with more neighbours share one more, which is swept by one thread.
+/// Colours that fit into a word; pairs of bodies with more neighbours share one more, which is solved by one thread.
 constexpr std::size_t most_colours = 64;
 
 }  // namespace

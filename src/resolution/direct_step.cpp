@@ -40,7 +40,7 @@ Mat6 coupling(const Vec3& r_x, const Mat3& weight, const Vec3& r_y) {
     return block;
 }
 
-bool isSticking(const SweptContact& contact) {
+bool isSticking(const PgsContact& contact) {
     const double normal = contact.normal.dot(contact.impulse);
     // On the cone it slides; rounding must not make it stick again.
     constexpr double inside = 1 - 1e-9;
@@ -50,17 +50,17 @@ bool isSticking(const SweptContact& contact) {
 
 }  // namespace
 
-bool DirectStep::compute(std::span<const LocalBody> bodies, BodyRange moving, std::span<const SweptContact> swept) {
+bool DirectStep::compute(std::span<const LocalBody> bodies, BodyRange moving, std::span<const PgsContact> pgs) {
     bodies_ = bodies;
     moving_ = moving;
-    const std::size_t count = swept.size();
+    const std::size_t count = pgs.size();
     holds_.resize(count);
     stiffness_.resize(count);
     changes_.resize(count);
     couplings_.clear();
     bool any = false;
     for (std::size_t i = 0; i < count; ++i) {
-        const SweptContact& contact = swept[i];
+        const PgsContact& contact = pgs[i];
         const bool pushes = contact.normal.dot(contact.impulse) > 0 && isResolvable(contact);
         holds_[i] = !pushes ? Hold::none : isSticking(contact) ? Hold::all : Hold::normal;
         stiffness_[i] = contact.normal_mass / softness;
@@ -71,13 +71,13 @@ bool DirectStep::compute(std::span<const LocalBody> bodies, BodyRange moving, st
         }
     }
     if (!any) return false;
-    assemble(swept);
+    assemble(pgs);
     if (!matrix_.factorize()) return false;
-    solve(swept);
+    solve(pgs);
     return true;
 }
 
-void DirectStep::assemble(std::span<const SweptContact> swept) {
+void DirectStep::assemble(std::span<const PgsContact> pgs) {
     matrix_.reset(moving_.end - moving_.begin, couplings_);
     inertia_.resize(moving_.end - moving_.begin);
     for (std::uint32_t i = 0; i < moving_.end - moving_.begin; ++i) {
@@ -87,9 +87,9 @@ void DirectStep::assemble(std::span<const SweptContact> swept) {
         inertia_[i].bottomRightCorner<3, 3>() = inverse(body.inertia_inv).toMatrix();
         matrix_.addDiagonal(i, inertia_[i]);
     }
-    for (std::size_t i = 0; i < swept.size(); ++i) {
+    for (std::size_t i = 0; i < pgs.size(); ++i) {
         if (holds_[i] == Hold::none) continue;
-        const SweptContact& contact = swept[i];
+        const PgsContact& contact = pgs[i];
         const Vec3 n = toVec3(contact.normal);
         const Vec3 r_a = toVec3(contact.r_a);
         const Vec3 r_b = toVec3(contact.r_b);
@@ -102,7 +102,7 @@ void DirectStep::assemble(std::span<const SweptContact> swept) {
     }
 }
 
-Vec3 DirectStep::missing(const SweptContact& contact, std::size_t i) const {
+Vec3 DirectStep::missing(const PgsContact& contact, std::size_t i) const {
     Vec3 velocity = toVec3(relativeVelocity(contact, read(bodies_[contact.a]), read(bodies_[contact.b])));
     if (moves(contact.a)) velocity += velocityAt(motion_[placeOf(contact.a)], toVec3(contact.r_a));
     if (moves(contact.b)) velocity -= velocityAt(motion_[placeOf(contact.b)], toVec3(contact.r_b));
@@ -111,14 +111,14 @@ Vec3 DirectStep::missing(const SweptContact& contact, std::size_t i) const {
     return holds_[i] == Hold::all ? lacking : Vec3(n.dot(lacking) * n);
 }
 
-void DirectStep::solve(std::span<const SweptContact> swept) {
+void DirectStep::solve(std::span<const PgsContact> pgs) {
     motion_.assign(moving_.end - moving_.begin, Vec6::Zero());
     force_.resize(moving_.end - moving_.begin);
     for (int round = 0; round <= refinements; ++round) {
         for (std::size_t i = 0; i < moving_.end - moving_.begin; ++i) force_[i] = -(inertia_[i] * motion_[i]);
-        for (std::size_t i = 0; i < swept.size(); ++i) {
+        for (std::size_t i = 0; i < pgs.size(); ++i) {
             if (holds_[i] == Hold::none) continue;
-            const SweptContact& contact = swept[i];
+            const PgsContact& contact = pgs[i];
             const Vec3 impulse = stiffness_[i] * missing(contact, i);
             if (moves(contact.a)) addForceAt(impulse, toVec3(contact.r_a), force_[placeOf(contact.a)]);
             if (moves(contact.b)) addForceAt(-impulse, toVec3(contact.r_b), force_[placeOf(contact.b)]);
@@ -126,8 +126,8 @@ void DirectStep::solve(std::span<const SweptContact> swept) {
         matrix_.solve(force_);
         for (std::size_t i = 0; i < moving_.end - moving_.begin; ++i) motion_[i] += force_[i];
     }
-    for (std::size_t i = 0; i < swept.size(); ++i) {
-        changes_[i] = holds_[i] == Hold::none ? Vec3(Vec3::Zero()) : Vec3(stiffness_[i] * missing(swept[i], i));
+    for (std::size_t i = 0; i < pgs.size(); ++i) {
+        changes_[i] = holds_[i] == Hold::none ? Vec3(Vec3::Zero()) : Vec3(stiffness_[i] * missing(pgs[i], i));
     }
 }
 

@@ -9,7 +9,7 @@
 
 #include "resolution/block_cholesky.h"
 #include "resolution/local_batch.h"
-#include "resolution/swept_contact.h"
+#include "resolution/pgs_contact.h"
 
 namespace cairn {
 
@@ -30,17 +30,17 @@ class DirectStep {
   public:
     /// Computes the change of each contact's impulse [N·s, W]. @param moving which of the bodies can move
     /// @return false if there is nothing to solve or the factorization fails
-    bool compute(std::span<const LocalBody> bodies, BodyRange moving, std::span<const SweptContact> swept);
+    bool compute(std::span<const LocalBody> bodies, BodyRange moving, std::span<const PgsContact> pgs);
     std::span<const Vec3> changes() const { return changes_; }
 
   private:
     /// How a contact takes part.
     enum class Hold : std::uint8_t { none, normal, all };
 
-    void assemble(std::span<const SweptContact> swept);
-    void solve(std::span<const SweptContact> swept);
+    void assemble(std::span<const PgsContact> pgs);
+    void solve(std::span<const PgsContact> pgs);
     /// What a contact's velocity lacks after motion_ is added [m/s, W].
-    Vec3 missing(const SweptContact& contact, std::size_t i) const;
+    Vec3 missing(const PgsContact& contact, std::size_t i) const;
     bool moves(std::uint32_t body) const { return body >= moving_.begin && body < moving_.end; }
     /// Its place among those that move.
     std::uint32_t placeOf(std::uint32_t body) const { return body - moving_.begin; }

@@ -20,8 +20,8 @@ bool rolls(const ContactFrame& frame) {
 
 }  // namespace
 
-void FramedContacts::begin(const SweptBatch& swept, std::uint32_t first, std::uint32_t end) {
-    LocalBatch& local = swept.local;
+void FramedContacts::begin(const PgsBatch& pgs, std::uint32_t first, std::uint32_t end) {
+    LocalBatch& local = pgs.local;
     contacts_.assign(end - first, {});
     frames_.clear();
     for (std::uint32_t i = first; i < end; ++i) {
@@ -29,22 +29,22 @@ void FramedContacts::begin(const SweptBatch& swept, std::uint32_t first, std::ui
         frames_.push_back(local.contacts[i]);
     }
     for (std::size_t n = 0; n < contacts_.size(); ++n) {
-        contacts_[n].source = swept.batch.contacts[first + n];
-        beginContact(contacts_[n], frames_[n], swept);
+        contacts_[n].source = pgs.batch.contacts[first + n];
+        beginContact(contacts_[n], frames_[n], pgs);
     }
     for (std::size_t n = 0; n < contacts_.size(); ++n) local.pushWorld(frames_[n], toVec3(contacts_[n].impulse));
 }
 
-void FramedContacts::beginContact(Framed& framed, ContactFrame& frame, const SweptBatch& swept) {
-    const Contact& contact = swept.contacts[framed.source];
-    LocalBatch& local = swept.local;
+void FramedContacts::beginContact(Framed& framed, ContactFrame& frame, const PgsBatch& pgs) {
+    const Contact& contact = pgs.contacts[framed.source];
+    LocalBatch& local = pgs.local;
     framed.a = frame.a;
     framed.b = frame.b;
     framed.normal = Triple1(contact.normal);
     framed.r_a = Triple1(frame.r_a);
     framed.r_b = Triple1(frame.r_b);
-    const SweptBody<double> a = read(local.bodies[framed.a]);
-    const SweptBody<double> b = read(local.bodies[framed.b]);
+    const PgsBody<double> a = read(local.bodies[framed.a]);
+    const PgsBody<double> b = read(local.bodies[framed.b]);
     Symmetric3 k;
     if (local.joints.holds(frame)) {
         const Mat3 in_contact = local.joints.collisionMatrix(frame, local.bodies).toMatrix();
@@ -57,7 +57,7 @@ void FramedContacts::beginContact(Framed& framed, ContactFrame& frame, const Swe
     mendSingular(framed);
     framed.friction = contact.static_friction;
     const double closing = framed.normal.dot(relativeVelocity(framed, a, b));
-    framed.target = ContactLaw::separatingSpeed(swept.settings, contact, closing);
+    framed.target = ContactLaw::separatingSpeed(pgs.settings, contact, closing);
     framed.impulse = Triple1(contact.last_impulse);
     if (!(framed.normal.dot(framed.impulse) > 0) || !isResolvable(framed)) framed.impulse = Triple1();
 }
@@ -145,24 +145,24 @@ void FramedContacts::accelerate(double beta) {
     }
 }
 
-bool FramedContacts::releaseSliding(const SweptBatch& swept) {
+bool FramedContacts::releaseSliding(const PgsBatch& pgs) {
     bool released = false;
     for (Framed& framed : contacts_) {
-        const Contact& contact = swept.contacts[framed.source];
+        const Contact& contact = pgs.contacts[framed.source];
         if (!(contact.kinetic_friction < contact.static_friction)) continue;
-        const std::vector<LocalBody>& bodies = swept.local.bodies;
-        if (!slides(framed, bodies[framed.a], bodies[framed.b], swept.settings.resolution_threshold)) continue;
+        const std::vector<LocalBody>& bodies = pgs.local.bodies;
+        if (!slides(framed, bodies[framed.a], bodies[framed.b], pgs.settings.resolution_threshold)) continue;
         framed.friction = contact.kinetic_friction;
         released = true;
     }
     return released;
 }
 
-void FramedContacts::finish(const SweptBatch& swept) {
-    LocalBatch& local = swept.local;
+void FramedContacts::finish(const PgsBatch& pgs) {
+    LocalBatch& local = pgs.local;
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
         const Framed& framed = contacts_[i];
-        Contact& contact = swept.contacts[framed.source];
+        Contact& contact = pgs.contacts[framed.source];
         ContactFrame& frame = frames_[i];
         frame.impulse = toVec3(framed.impulse);
         contact.impulse += frame.impulse;

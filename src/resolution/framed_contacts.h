@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "resolution/swept_batch.h"
-#include "resolution/swept_contact.h"
+#include "resolution/pgs_batch.h"
+#include "resolution/pgs_contact.h"
 
 namespace cairn {
 
@@ -16,7 +16,7 @@ class FramedContacts {
   public:
     /// Takes over some contacts of a batch, and applies the impulses that they begin with.
     /// @param first, end their places in the batch
-    void begin(const SweptBatch& swept, std::uint32_t first, std::uint32_t end);
+    void begin(const PgsBatch& pgs, std::uint32_t first, std::uint32_t end);
     std::size_t size() const { return contacts_.size(); }
     void sweepForth(LocalBatch& local);
     void sweepBack(LocalBatch& local);
@@ -29,13 +29,13 @@ class FramedContacts {
     /// Forgets the last direction.
     void restart();
     /// Gives the contacts that slide their kinetic friction. @return whether any has another one now
-    bool releaseSliding(const SweptBatch& swept);
+    bool releaseSliding(const PgsBatch& pgs);
     /// Writes the impulses to the contacts, and finds those of the joints.
-    void finish(const SweptBatch& swept);
+    void finish(const PgsBatch& pgs);
 
   private:
     /// A contact, and the angular impulse if it resists rolling.
-    struct Framed : SweptContact {
+    struct Framed : PgsContact {
         std::uint32_t source = 0;               ///< index of its Contact
         Triple1 before;                         ///< impulse at the beginning of the sweep [N·s]
         Triple1 direction;                      ///< last direction of the conjugate gradients [N·s]
@@ -44,7 +44,7 @@ class FramedContacts {
         Vec3 turning_direction = Vec3::Zero();  ///< last direction of the conjugate gradients [N·m·s]
     };
 
-    void beginContact(Framed& framed, ContactFrame& frame, const SweptBatch& swept);
+    void beginContact(Framed& framed, ContactFrame& frame, const PgsBatch& pgs);
     void visit(std::size_t i, LocalBatch& local);
     void visitRolling(std::size_t i, LocalBatch& local);
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "resolution/swept_contact.h"
+#include "resolution/pgs_contact.h"
 
 namespace cairn {
 
@@ -38,18 +38,18 @@ static_assert(offsetof(LocalBody, v) == 0 && offsetof(LocalBody, w) == 3 * sizeo
 
 /// @tparam Number of the lanes, one index each
 template <class Number>
-[[gnu::always_inline]] inline SweptBody<Number> load(const std::vector<LocalBody>& bodies,
-                                                     const BodyIndices<lanes_in<Number>>& i);
+[[gnu::always_inline]] inline PgsBody<Number> load(const std::vector<LocalBody>& bodies,
+                                                   const BodyIndices<lanes_in<Number>>& i);
 
 template <>
-[[gnu::always_inline]] inline SweptBody<double> load<double>(const std::vector<LocalBody>& bodies,
-                                                             const BodyIndices<1>& i) {
+[[gnu::always_inline]] inline PgsBody<double> load<double>(const std::vector<LocalBody>& bodies,
+                                                           const BodyIndices<1>& i) {
     return read(bodies[i[0]]);
 }
 
 template <>
-[[gnu::always_inline]] inline SweptBody<Lanes> load<Lanes>(const std::vector<LocalBody>& bodies,
-                                                           const BodyIndices<lane_count>& i) {
+[[gnu::always_inline]] inline PgsBody<Lanes> load<Lanes>(const std::vector<LocalBody>& bodies,
+                                                         const BodyIndices<lane_count>& i) {
     Lanes row[3][lane_count];
     for (std::size_t part = 0; part < 3; ++part) {
         for (std::size_t lane = 0; lane < lane_count; ++lane) row[part][lane] = rowOf(bodies[i[lane]], 4 * part);
@@ -64,13 +64,13 @@ template <>
 
 // Bodies are stored only in lanes with the bit: others may stand for one that another thread is at work on.
 
-[[gnu::always_inline]] inline void store(const SweptBody<double>& body, const BodyIndices<1>& i,
+[[gnu::always_inline]] inline void store(const PgsBody<double>& body, const BodyIndices<1>& i,
                                          const std::array<std::uint8_t, 1>& moves, int bit,
                                          std::vector<LocalBody>& bodies) {
     if ((moves[0] & bit) != 0) write(body, bodies[i[0]]);
 }
 
-[[gnu::always_inline]] inline void store(const SweptBody<Lanes>& body, const BodyIndices<lane_count>& i,
+[[gnu::always_inline]] inline void store(const PgsBody<Lanes>& body, const BodyIndices<lane_count>& i,
                                          const std::array<std::uint8_t, lane_count>& moves, int bit,
                                          std::vector<LocalBody>& bodies) {
     Lanes row[lane_count] = {body.v.x(), body.v.y(), body.v.z(), body.w.x()};
@@ -87,8 +87,7 @@ template <>
 }
 
 template <class Number>
-[[gnu::always_inline]] inline void visit(BasicSweptContact<Number>& contact, SweptBody<Number>& a,
-                                         SweptBody<Number>& b) {
+[[gnu::always_inline]] inline void visit(BasicPgsContact<Number>& contact, PgsBody<Number>& a, PgsBody<Number>& b) {
     const Triple<Number> impulse = projectedImpulse(contact, relativeVelocity(contact, a, b));
     // False for velocities that are not finite: they would spread.
     const auto usable = (impulse.squaredNorm() < std::numeric_limits<double>::infinity()) & (contact.normal_mass > 0);
@@ -99,7 +98,7 @@ template <class Number>
 
 /// Whether setInvertible() was able to invert K, in all lanes.
 template <class Number>
-[[gnu::always_inline]] inline bool isRegular(const BasicSweptContact<Number>& contact) {
+[[gnu::always_inline]] inline bool isRegular(const BasicPgsContact<Number>& contact) {
     const auto& k = contact.k_inv;
     const Number sum = k.xx + k.xy + k.xz + k.yy + k.yz + k.zz + contact.tangential_mass;
     const Number normal_part = contact.normal.dot(k * contact.normal);
@@ -123,8 +122,8 @@ Symmetric3 laneOf(const BasicSymmetric3<Number>& m, std::size_t lane) {
 }
 
 template <class Number>
-SweptContact laneOf(const BasicSweptContact<Number>& wide, std::size_t lane) {
-    SweptContact contact;
+PgsContact laneOf(const BasicPgsContact<Number>& wide, std::size_t lane) {
+    PgsContact contact;
     contact.impulse = Triple1(laneOf(wide.impulse, lane));
     contact.normal = Triple1(laneOf(wide.normal, lane));
     contact.r_a = Triple1(laneOf(wide.r_a, lane));
@@ -140,7 +139,7 @@ SweptContact laneOf(const BasicSweptContact<Number>& wide, std::size_t lane) {
 
 /// What follows from K alone.
 template <class Number>
-void setMasses(BasicSweptContact<Number>& wide, std::size_t lane, const SweptContact& contact) {
+void setMasses(BasicPgsContact<Number>& wide, std::size_t lane, const PgsContact& contact) {
     setLane(wide.k_inv, lane, contact.k_inv);
     setLane(wide.k, lane, contact.k);
     setLane(wide.normal_mass, lane, contact.normal_mass);

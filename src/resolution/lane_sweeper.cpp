@@ -28,16 +28,16 @@ constexpr std::size_t sum_block = 64;
 }  // namespace
 
 template <class Number>
-void LaneSweeper<Number>::beginColours(const SweptBatch& swept, std::size_t contacts) {
-    colours_.colour(std::span(swept.local.ends).first(contacts), swept.local.dynamic_bodies);
-    arrange(swept.local);
-    beginGroups(swept);
+void LaneSweeper<Number>::beginColours(const PgsBatch& pgs, std::size_t contacts) {
+    colours_.colour(std::span(pgs.local.ends).first(contacts), pgs.local.dynamic_bodies);
+    arrange(pgs.local);
+    beginGroups(pgs);
 }
 
 template <class Number>
-void LaneSweeper<Number>::beginLanes(const SweptBatch& swept, std::size_t contacts,
+void LaneSweeper<Number>::beginLanes(const PgsBatch& pgs, std::size_t contacts,
                                      std::span<const LaneRange, lanes> ranges) {
-    const std::span<const ContactEnds> ends = std::span(swept.local.ends).first(contacts);
+    const std::span<const ContactEnds> ends = std::span(pgs.local.ends).first(contacts);
     groups_.clear();
     contact_of_.clear();
     shared_ = 0;
@@ -56,11 +56,11 @@ void LaneSweeper<Number>::beginLanes(const SweptBatch& swept, std::size_t contac
             any = any || end > begin;
         }
         if (!any) break;
-        addGroup(pairs, own_order_, swept.local);
+        addGroup(pairs, own_order_, pgs.local);
     }
     group_begin_.assign({0, groups_.size()});
     contacts_ = firstOf(contact_memory_, contact_of_.size() / lanes);
-    beginGroups(swept);
+    beginGroups(pgs);
 }
 
 /// The contacts that empty lanes repeat: the first of the lane, or of another where it has none.
@@ -74,19 +74,19 @@ auto LaneSweeper<Number>::substitutesOf(const Group& group) const -> std::array<
 }
 
 template <class Number>
-[[gnu::always_inline]] inline void LaneSweeper<Number>::beginGroup(const Group& group, const SweptBatch& swept) {
-    const SweptBody<Number> a = load<Number>(swept.local.bodies, group.a);
-    const SweptBody<Number> b = load<Number>(swept.local.bodies, group.b);
+[[gnu::always_inline]] inline void LaneSweeper<Number>::beginGroup(const Group& group, const PgsBatch& pgs) {
+    const PgsBody<Number> a = load<Number>(pgs.local.bodies, group.a);
+    const PgsBody<Number> b = load<Number>(pgs.local.bodies, group.b);
     const std::array<std::uint32_t, lanes> substitute = substitutesOf(group);
     for (std::size_t i = group.begin; i < group.end; ++i) {
-        BasicSweptContact<Number>& wide = contacts_[i];
+        BasicPgsContact<Number>& wide = contacts_[i];
         for (std::size_t lane = 0; lane < lanes; ++lane) {
             const std::uint32_t index = contact_of_[i * lanes + lane];
             const std::uint32_t source = index == empty_lane ? substitute[lane] : index;
-            const Contact& contact = swept.contacts[swept.batch.contacts[source]];
+            const Contact& contact = pgs.contacts[pgs.batch.contacts[source]];
             setLane(wide.normal, lane, contact.normal);
-            setLane(wide.r_a, lane, contact.point - swept.bodies.position[contact.a]);
-            setLane(wide.r_b, lane, contact.point - swept.bodies.position[contact.b]);
+            setLane(wide.r_a, lane, contact.point - pgs.bodies.position[contact.a]);
+            setLane(wide.r_b, lane, contact.point - pgs.bodies.position[contact.b]);
             setLane(wide.impulse, lane, index == empty_lane ? Vec3(Vec3::Zero()) : contact.last_impulse);
             setLane(wide.friction, lane, contact.static_friction);
         }
@@ -99,16 +99,16 @@ template <class Number>
         for (std::size_t lane = 0; lane < lanes; ++lane) {
             const std::uint32_t index = contact_of_[i * lanes + lane];
             if (index == empty_lane) {
-                setMasses(wide, lane, SweptContact{});
+                setMasses(wide, lane, PgsContact{});
                 continue;
             }
             if (!regular) {
-                SweptContact contact = laneOf(wide, lane);
+                PgsContact contact = laneOf(wide, lane);
                 mendSingular(contact);
                 setMasses(wide, lane, contact);
             }
             setLane(wide.target, lane,
-                    ContactLaw::separatingSpeed(swept.settings, swept.contacts[swept.batch.contacts[index]],
+                    ContactLaw::separatingSpeed(pgs.settings, pgs.contacts[pgs.batch.contacts[index]],
                                                 laneOf(closing, lane)));
         }
         const auto pushes = (wide.normal.dot(wide.impulse) > 0) & (wide.normal_mass > 0);
@@ -118,21 +118,21 @@ template <class Number>
 
 /// Fills the contacts, and applies the impulses that they begin with.
 template <class Number>
-void LaneSweeper<Number>::beginGroups(const SweptBatch& swept) {
-    swept.executor.forBlocks(
+void LaneSweeper<Number>::beginGroups(const PgsBatch& pgs) {
+    pgs.executor.forBlocks(
         groups_.size(),
         [&](std::size_t begin, std::size_t end, int) {
             runOnLanes<Number>([&]() __attribute__((always_inline)) {
-                for (std::size_t g = begin; g < end; ++g) beginGroup(groups_[g], swept);
+                for (std::size_t g = begin; g < end; ++g) beginGroup(groups_[g], pgs);
             });
         },
         group_grain);
     for (std::size_t c = 0; c < colours(); ++c) {
         visitGroups<Way::forth>(
-            c, swept,
-            [](std::span<BasicSweptContact<Number>> contacts, SweptBody<Number> & a, SweptBody<Number> & b)
+            c, pgs,
+            [](std::span<BasicPgsContact<Number>> contacts, PgsBody<Number> & a, PgsBody<Number> & b)
                 __attribute__((always_inline)) {
-                    for (const BasicSweptContact<Number>& contact : contacts) push(contact, contact.impulse, a, b);
+                    for (const BasicPgsContact<Number>& contact : contacts) push(contact, contact.impulse, a, b);
                 });
     }
 }
@@ -209,16 +209,16 @@ void LaneSweeper<Number>::addGroup(const PairsOfLanes& pairs, std::span<const st
 /// back, in descending order.
 template <class Number>
 template <typename LaneSweeper<Number>::Way way, class Visit>
-void LaneSweeper<Number>::visitGroups(std::size_t colour, const SweptBatch& swept, const Visit& visit) {
+void LaneSweeper<Number>::visitGroups(std::size_t colour, const PgsBatch& pgs, const Visit& visit) {
     const std::size_t first = group_begin_[colour];
     const std::size_t count = group_begin_[colour + 1] - first;
-    std::vector<LocalBody>& bodies = swept.local.bodies;
+    std::vector<LocalBody>& bodies = pgs.local.bodies;
     const auto work = [&](std::size_t begin, std::size_t end, int) {
         runOnLanes<Number>([&]() __attribute__((always_inline)) {
             for (std::size_t n = begin; n < end; ++n) {
                 const Group& group = groups_[way == Way::forth ? first + n : first + count - 1 - n];
-                SweptBody<Number> a = load<Number>(bodies, group.a);
-                SweptBody<Number> b = load<Number>(bodies, group.b);
+                PgsBody<Number> a = load<Number>(bodies, group.a);
+                PgsBody<Number> b = load<Number>(bodies, group.b);
                 visit(contacts_.subspan(group.begin, group.end - group.begin), a, b);
                 store(a, group.a, group.moves, 1, bodies);
                 store(b, group.b, group.moves, 2, bodies);
@@ -226,30 +226,30 @@ void LaneSweeper<Number>::visitGroups(std::size_t colour, const SweptBatch& swep
         });
     };
     if (colour < shared_) {
-        swept.executor.forBlocks(count, work, group_grain);
+        pgs.executor.forBlocks(count, work, group_grain);
     } else {
         work(0, count, 0);
     }
 }
 
 template <class Number>
-void LaneSweeper<Number>::sweepForth(const SweptBatch& swept) {
+void LaneSweeper<Number>::sweepForth(const PgsBatch& pgs) {
     for (std::size_t c = 0; c < colours(); ++c) {
         visitGroups<Way::forth>(
-            c, swept,
-            [](std::span<BasicSweptContact<Number>> contacts, SweptBody<Number> & a, SweptBody<Number> & b)
+            c, pgs,
+            [](std::span<BasicPgsContact<Number>> contacts, PgsBody<Number> & a, PgsBody<Number> & b)
                 __attribute__((always_inline)) {
-                    for (BasicSweptContact<Number>& contact : contacts) visit(contact, a, b);
+                    for (BasicPgsContact<Number>& contact : contacts) visit(contact, a, b);
                 });
     }
 }
 
 template <class Number>
-void LaneSweeper<Number>::sweepBack(const SweptBatch& swept) {
+void LaneSweeper<Number>::sweepBack(const PgsBatch& pgs) {
     for (std::size_t c = colours(); c-- > 0;) {
         visitGroups<Way::back>(
-            c, swept,
-            [](std::span<BasicSweptContact<Number>> contacts, SweptBody<Number> & a, SweptBody<Number> & b)
+            c, pgs,
+            [](std::span<BasicPgsContact<Number>> contacts, PgsBody<Number> & a, PgsBody<Number> & b)
                 __attribute__((always_inline)) {
                     for (std::size_t i = contacts.size(); i-- > 0;) visit(contacts[i], a, b);
                 });
@@ -257,17 +257,17 @@ void LaneSweeper<Number>::sweepBack(const SweptBatch& swept) {
 }
 
 template <class Number>
-void LaneSweeper<Number>::note(const SweptBatch& swept) {
+void LaneSweeper<Number>::note(const PgsBatch& pgs) {
     resizeTightly(before_, contacts_.size());
     forEach(
-        before_.size(), swept.executor, [&](std::size_t i) { before_[i] = contacts_[i].impulse; }, wide_grain);
+        before_.size(), pgs.executor, [&](std::size_t i) { before_[i] = contacts_[i].impulse; }, wide_grain);
 }
 
 template <class Number>
-SweepChange LaneSweeper<Number>::change(const SweptBatch& swept) {
+SweepChange LaneSweeper<Number>::change(const PgsBatch& pgs) {
     sums_.resize((contacts_.size() + sum_block - 1) / sum_block);
     forEach(
-        sums_.size(), swept.executor,
+        sums_.size(), pgs.executor,
         [&](std::size_t block) {
             sums_[block] = {};
             const std::size_t end = std::min(contacts_.size(), (block + 1) * sum_block);
@@ -292,7 +292,7 @@ auto LaneSweeper<Number>::changeOf(std::size_t begin, std::size_t end) const -> 
         Number squared{};
         Number largest{};
         for (std::size_t i = begin; i < end; ++i) {
-            const BasicSweptContact<Number>& contact = contacts_[i];
+            const BasicPgsContact<Number>& contact = contacts_[i];
             const Triple<Number> difference = contact.impulse - before_[i];
             const Number weighted = difference.squaredNorm() / contact.normal_mass;
             const Number speed = (contact.k * difference).squaredNorm();
@@ -313,8 +313,8 @@ void LaneSweeper<Number>::restart() {
 }
 
 template <class Number>
-void LaneSweeper<Number>::accelerate(double beta, const SweptBatch& swept) {
-    swept.executor.forBlocks(
+void LaneSweeper<Number>::accelerate(double beta, const PgsBatch& pgs) {
+    pgs.executor.forBlocks(
         contacts_.size(),
         [&](std::size_t begin, std::size_t end, int) {
             runOnLanes<Number>([&]() __attribute__((always_inline)) {
@@ -352,38 +352,38 @@ void LaneSweeper<Number>::restartLane(std::size_t lane) {
 }
 
 template <class Number>
-SweptContact LaneSweeper<Number>::contactAt(std::size_t contact, const SweptBatch& swept) const {
+PgsContact LaneSweeper<Number>::contactAt(std::size_t contact, const PgsBatch& pgs) const {
     const std::uint32_t slot = slot_of_[contact];
-    SweptContact s = laneOf(contacts_[slot / lanes], slot % lanes);
-    s.a = swept.local.ends[contact].a;
-    s.b = swept.local.ends[contact].b;
+    PgsContact s = laneOf(contacts_[slot / lanes], slot % lanes);
+    s.a = pgs.local.ends[contact].a;
+    s.b = pgs.local.ends[contact].b;
     return s;
 }
 
 template <class Number>
 void LaneSweeper<Number>::setImpulse(std::size_t contact, const Triple1& impulse, LocalBatch& local) {
     const std::uint32_t slot = slot_of_[contact];
-    BasicSweptContact<Number>& wide = contacts_[slot / lanes];
-    const SweptContact s = laneOf(wide, slot % lanes);
+    BasicPgsContact<Number>& wide = contacts_[slot / lanes];
+    const PgsContact s = laneOf(wide, slot % lanes);
     LocalBody& a = local.bodies[local.ends[contact].a];
     LocalBody& b = local.bodies[local.ends[contact].b];
-    SweptBody<double> swept_a = read(a);
-    SweptBody<double> swept_b = read(b);
-    push(s, impulse - s.impulse, swept_a, swept_b);
-    if (!local.isFixed(local.ends[contact].a)) write(swept_a, a);
-    if (!local.isFixed(local.ends[contact].b)) write(swept_b, b);
+    PgsBody<double> pgs_a = read(a);
+    PgsBody<double> pgs_b = read(b);
+    push(s, impulse - s.impulse, pgs_a, pgs_b);
+    if (!local.isFixed(local.ends[contact].a)) write(pgs_a, a);
+    if (!local.isFixed(local.ends[contact].b)) write(pgs_b, b);
     setLane(wide.impulse, slot % lanes, toVec3(impulse));
 }
 
 template <class Number>
-bool LaneSweeper<Number>::releaseSliding(const SweptBatch& swept, const LaneRange& range) {
+bool LaneSweeper<Number>::releaseSliding(const PgsBatch& pgs, const LaneRange& range) {
     bool released = false;
     for (std::size_t i = range.contact_begin; i < range.contact_end; ++i) {
-        const Contact& contact = swept.contacts[swept.batch.contacts[i]];
+        const Contact& contact = pgs.contacts[pgs.batch.contacts[i]];
         if (!(contact.kinetic_friction < contact.static_friction)) continue;
-        const SweptContact s = contactAt(i, swept);
-        const std::vector<LocalBody>& bodies = swept.local.bodies;
-        if (!slides(s, bodies[s.a], bodies[s.b], swept.settings.resolution_threshold)) continue;
+        const PgsContact s = contactAt(i, pgs);
+        const std::vector<LocalBody>& bodies = pgs.local.bodies;
+        if (!slides(s, bodies[s.a], bodies[s.b], pgs.settings.resolution_threshold)) continue;
         setLane(contacts_[slot_of_[i] / lanes].friction, slot_of_[i] % lanes, contact.kinetic_friction);
         released = true;
     }
@@ -391,20 +391,20 @@ bool LaneSweeper<Number>::releaseSliding(const SweptBatch& swept, const LaneRang
 }
 
 template <class Number>
-void LaneSweeper<Number>::finish(const SweptBatch& swept) {
-    forEach(slot_of_.size(), swept.executor, [&](std::size_t i) { writeImpulse(i, swept); });
+void LaneSweeper<Number>::finish(const PgsBatch& pgs) {
+    forEach(slot_of_.size(), pgs.executor, [&](std::size_t i) { writeImpulse(i, pgs); });
 }
 
 template <class Number>
-void LaneSweeper<Number>::finishLane(std::size_t lane, const LaneRange& range, const SweptBatch& swept) {
-    for (std::size_t i = range.contact_begin; i < range.contact_end; ++i) writeImpulse(i, swept);
+void LaneSweeper<Number>::finishLane(std::size_t lane, const LaneRange& range, const PgsBatch& pgs) {
+    for (std::size_t i = range.contact_begin; i < range.contact_end; ++i) writeImpulse(i, pgs);
     for (Group& group : groups_) group.moves[lane] = 0;
 }
 
 template <class Number>
-void LaneSweeper<Number>::writeImpulse(std::size_t contact, const SweptBatch& swept) const {
-    const BasicSweptContact<Number>& wide = contacts_[slot_of_[contact] / lanes];
-    swept.contacts[swept.batch.contacts[contact]].impulse += laneOf(wide.impulse, slot_of_[contact] % lanes);
+void LaneSweeper<Number>::writeImpulse(std::size_t contact, const PgsBatch& pgs) const {
+    const BasicPgsContact<Number>& wide = contacts_[slot_of_[contact] / lanes];
+    pgs.contacts[pgs.batch.contacts[contact]].impulse += laneOf(wide.impulse, slot_of_[contact] % lanes);
 }
 
 template class LaneSweeper<double>;

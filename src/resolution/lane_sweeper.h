@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "resolution/contact_colours.h"
-#include "resolution/swept_batch.h"
-#include "resolution/swept_contact.h"
+#include "resolution/pgs_batch.h"
+#include "resolution/pgs_contact.h"
 
 namespace cairn {
 
-/// What a lane holds of several batches that are swept together.
+/// What a lane holds of several batches that are solved together.
 struct LaneRange {
     std::size_t body_begin = 0;  ///< of those that move
     std::size_t body_end = 0;
@@ -30,24 +30,24 @@ class LaneSweeper {
     static constexpr std::size_t lanes = lanes_in<Number>;
 
     /// Takes over the first contacts of a batch, and applies the impulses that they begin with.
-    void beginColours(const SweptBatch& swept, std::size_t contacts);
-    /// The same for several batches, one after the other in what is swept.
-    void beginLanes(const SweptBatch& swept, std::size_t contacts, std::span<const LaneRange, lanes> ranges);
-    void sweepForth(const SweptBatch& swept);
-    void sweepBack(const SweptBatch& swept);
+    void beginColours(const PgsBatch& pgs, std::size_t contacts);
+    /// The same for several batches, one after the other in what is solved.
+    void beginLanes(const PgsBatch& pgs, std::size_t contacts, std::span<const LaneRange, lanes> ranges);
+    void sweepForth(const PgsBatch& pgs);
+    void sweepBack(const PgsBatch& pgs);
     /// Remembers the impulses before a sweep.
-    void note(const SweptBatch& swept);
+    void note(const PgsBatch& pgs);
     /// Gives the contacts that slide their kinetic friction. @return whether any has another one now
-    bool releaseSliding(const SweptBatch& swept, const LaneRange& range);
+    bool releaseSliding(const PgsBatch& pgs, const LaneRange& range);
 
     /// What changed since note(). The same on any number of threads.
-    SweepChange change(const SweptBatch& swept);
+    SweepChange change(const PgsBatch& pgs);
     /// Adds β times the last direction to the impulses; the new direction is the change since note() plus that.
-    void accelerate(double beta, const SweptBatch& swept);
+    void accelerate(double beta, const PgsBatch& pgs);
     /// Forgets the last direction.
     void restart();
     /// Writes the impulses to the contacts.
-    void finish(const SweptBatch& swept);
+    void finish(const PgsBatch& pgs);
 
     // The same for each lane by itself.
     std::array<SweepChange, lanes> changeOfLanes() const;
@@ -55,10 +55,10 @@ class LaneSweeper {
     void accelerateLanes(const std::array<double, lanes>& beta, const std::array<double, lanes>& advances);
     void restartLane(std::size_t lane);
     /// Further sweeps leave what is in the lane alone.
-    void finishLane(std::size_t lane, const LaneRange& range, const SweptBatch& swept);
+    void finishLane(std::size_t lane, const LaneRange& range, const PgsBatch& pgs);
 
     /// A contact, with its bodies. @param contact its place in the batch
-    SweptContact contactAt(std::size_t contact, const SweptBatch& swept) const;
+    PgsContact contactAt(std::size_t contact, const PgsBatch& pgs) const;
     /// Replaces an accumulated impulse, with what it does to the velocities. @param impulse [N·s, W]
     void setImpulse(std::size_t contact, const Triple1& impulse, LocalBatch& local);
 
@@ -83,22 +83,22 @@ class LaneSweeper {
 
     void arrange(const LocalBatch& local);
     void addGroup(const PairsOfLanes& pairs, std::span<const std::uint32_t> order, const LocalBatch& local);
-    void beginGroups(const SweptBatch& swept);
+    void beginGroups(const PgsBatch& pgs);
     std::array<std::uint32_t, lanes> substitutesOf(const Group& group) const;
-    [[gnu::always_inline]] inline void beginGroup(const Group& group, const SweptBatch& swept);
+    [[gnu::always_inline]] inline void beginGroup(const Group& group, const PgsBatch& pgs);
     template <Way way, class Visit>
-    void visitGroups(std::size_t colour, const SweptBatch& swept, const Visit& visit);
+    void visitGroups(std::size_t colour, const PgsBatch& pgs, const Visit& visit);
     std::size_t colours() const { return group_begin_.size() - 1; }
     std::array<SweepChange, lanes> changeOf(std::size_t begin, std::size_t end) const;
-    void writeImpulse(std::size_t contact, const SweptBatch& swept) const;
+    void writeImpulse(std::size_t contact, const PgsBatch& pgs) const;
 
     ContactColours colours_;
-    std::vector<Group> groups_;                      ///< by colours
-    std::vector<std::size_t> group_begin_;           ///< [colours + 1] into groups_
-    std::size_t shared_ = 0;                         ///< the groups of colours below this share no body that moves
-    std::vector<std::uint32_t> own_order_;           ///< [contacts] their indices, for several batches
-    std::span<BasicSweptContact<Number>> contacts_;  ///< by groups
-    std::vector<BasicSweptContact<Number>> contact_memory_;  ///< contacts_ and more
+    std::vector<Group> groups_;                    ///< by colours
+    std::vector<std::size_t> group_begin_;         ///< [colours + 1] into groups_
+    std::size_t shared_ = 0;                       ///< the groups of colours below this share no body that moves
+    std::vector<std::uint32_t> own_order_;         ///< [contacts] their indices, for several batches
+    std::span<BasicPgsContact<Number>> contacts_;  ///< by groups
+    std::vector<BasicPgsContact<Number>> contact_memory_;  ///< contacts_ and more
     std::vector<std::uint32_t> contact_of_;  ///< [lanes · contacts_] the batch's contact in each lane, or none
     std::vector<std::uint32_t> slot_of_;     ///< [contacts] where each contact of the batch is in contact_of_
     std::vector<Triple<Number>> before_;     ///< [contacts_] impulses at the beginning of the sweep [N·s]

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdint>
 
-#include "resolution/swept_batch.h"
+#include "resolution/pgs_batch.h"
 
 namespace cairn {
 
-/// How far a batch is swept.
+/// How far a batch is solved.
 struct SweepPlan {
     std::int64_t limit = 1;   ///< of sweeps
     double steady_speed = 0;  ///< a sweep that changes no contact's velocity by more is the last one [m/s]
@@ -57,7 +57,7 @@ class SweepProgress {
 
     /// Estimates what all further sweeps would change, from how fast the changes become smaller: after a change c of a
     /// part r of the one before it, a geometric series leaves c·r/(1 − r). Deep piles, through which impulses have a
-    /// long way, converge slowly and so are swept longer than shallow ones.
+    /// long way, converge slowly and so are solved longer than shallow ones.
     bool isLittleLeft(double change) {
         if (plan_.tolerance == 0) return false;
         const double least = estimates_ == 1 ? assumed_rate : fastest_rate;

@@ -9,7 +9,7 @@ namespace cairn {
 namespace {
 
 /// Sweeps before the first direct step: they find out which contacts push and stick.
-constexpr std::int64_t sweeps_before_leap = 3;
+constexpr std::int64_t sweeps_before_direct_step = 3;
 
 /// A direct step is taken back unless it leaves less than this part of the squared change of a sweep.
 constexpr double worthwhile = 0.25;
@@ -35,12 +35,12 @@ std::int64_t Sweeps<Number>::resolve(std::span<const BatchView> batches, std::sp
     gather(batches, kinds, contacts, bodies, settings);
     const std::span<JointBlock> joints = batches.size() == 1 ? batches[0].joints : std::span<JointBlock>();
     const BatchView all{bodies_, contacts_, joints};
-    const SweptBatch swept{local_, all, contacts, bodies, settings, executor};
-    begin(swept, kinds[0]);
-    const std::int64_t visits = sweepAll(swept);
+    const PgsBatch pgs{local_, all, contacts, bodies, settings, executor};
+    begin(pgs, kinds[0]);
+    const std::int64_t visits = sweepAll(pgs);
     for (std::size_t i = 0; i < local_.dynamic_bodies; ++i) local_.bodies[i].struck = 1;
-    if (coloured_) sweeper_.finish(swept);
-    if (kinds[0].framed) framed_.finish(swept);
+    if (coloured_) sweeper_.finish(pgs);
+    if (kinds[0].framed) framed_.finish(pgs);
     local_.scatterBodies(bodies);
     return visits;
 }
@@ -79,8 +79,8 @@ void Sweeps<Number>::gather(std::span<const BatchView> batches, std::span<const 
         course.plan = planOf(kinds[n], bodies, settings);
         course.progress = SweepProgress(course.plan);
         course.two_frictions = kinds[n].two_frictions;
-        course.may_leap = kinds[n].may_leap;
-        course.leapt = false;
+        course.may_step_directly = kinds[n].may_step_directly;
+        course.stepped_directly = false;
     }
     coloured_ = kinds[0].coloured;
     plain_ = contacts_.size();
@@ -88,33 +88,33 @@ void Sweeps<Number>::gather(std::span<const BatchView> batches, std::span<const 
 }
 
 template <class Number>
-void Sweeps<Number>::begin(const SweptBatch& swept, const BatchKind& kind) {
+void Sweeps<Number>::begin(const PgsBatch& pgs, const BatchKind& kind) {
     if (kind.framed) {
-        local_.gatherUnprepared(swept.batch, swept.contacts, swept.bodies);
+        local_.gatherUnprepared(pgs.batch, pgs.contacts, pgs.bodies);
     } else {
-        local_.gatherBodies(swept.batch, swept.contacts, swept.bodies);
+        local_.gatherBodies(pgs.batch, pgs.contacts, pgs.bodies);
     }
     if (coloured_) {
-        sweeper_.beginColours(swept, plain_);
+        sweeper_.beginColours(pgs, plain_);
     } else {
         std::array<LaneRange, lanes> ranges;
         for (std::size_t n = 0; n < lanes; ++n) ranges[n] = courses_[n].range;
-        sweeper_.beginLanes(swept, plain_, ranges);
+        sweeper_.beginLanes(pgs, plain_, ranges);
     }
-    framed_.begin(swept, static_cast<std::uint32_t>(plain_), static_cast<std::uint32_t>(contacts_.size()));
+    framed_.begin(pgs, static_cast<std::uint32_t>(plain_), static_cast<std::uint32_t>(contacts_.size()));
 }
 
 /// @return contacts visited
 template <class Number>
-std::int64_t Sweeps<Number>::sweepAll(const SweptBatch& swept) {
+std::int64_t Sweeps<Number>::sweepAll(const PgsBatch& pgs) {
     std::int64_t visits = 0;
     const auto isActive = [](const Course& course) { return course.active; };
     while (std::ranges::any_of(courses_, isActive)) {
-        const bool bounds_changed = local_.joints.resolveBounds(local_.bodies, swept.settings.resolution_threshold);
+        const bool bounds_changed = local_.joints.resolveBounds(local_.bodies, pgs.settings.resolution_threshold);
         // Nobody asks what the last sweep changes.
         const bool measured = std::ranges::any_of(
-            courses_, [](const Course& c) { return c.active && (c.leapt || !c.progress.isLast()); });
-        sweepOnce(swept, measured);
+            courses_, [](const Course& c) { return c.active && (c.stepped_directly || !c.progress.isLast()); });
+        sweepOnce(pgs, measured);
         for (std::size_t n = 0; n < lanes; ++n) {
             Course& course = courses_[n];
             course.advances = false;
@@ -122,28 +122,28 @@ std::int64_t Sweeps<Number>::sweepAll(const SweptBatch& swept) {
             ++course.sweeps;
             visits += 2 * static_cast<std::int64_t>(course.range.contact_end - course.range.contact_begin +
                                                     contacts_.size() - plain_);
-            judge(n, bounds_changed, swept);
+            judge(n, bounds_changed, pgs);
         }
-        accelerate(swept);
+        accelerate(pgs);
     }
     return visits;
 }
 
 /// Sweeps forth and back, and finds what that changes.
 template <class Number>
-void Sweeps<Number>::sweepOnce(const SweptBatch& swept, bool measured) {
+void Sweeps<Number>::sweepOnce(const PgsBatch& pgs, bool measured) {
     if (measured) {
-        sweeper_.note(swept);
+        sweeper_.note(pgs);
         framed_.note();
-        direction_.note(local_, swept.executor);
+        direction_.note(local_, pgs.executor);
     }
-    sweeper_.sweepForth(swept);
+    sweeper_.sweepForth(pgs);
     framed_.sweepForth(local_);
     framed_.sweepBack(local_);
-    sweeper_.sweepBack(swept);
+    sweeper_.sweepBack(pgs);
     if (!measured) return;
     if (coloured_) {
-        changes_[0] = sweeper_.change(swept);
+        changes_[0] = sweeper_.change(pgs);
     } else {
         changes_ = sweeper_.changeOfLanes();
     }
@@ -152,28 +152,29 @@ void Sweeps<Number>::sweepOnce(const SweptBatch& swept, bool measured) {
 
 /// Decides how a batch goes on after a sweep.
 template <class Number>
-void Sweeps<Number>::judge(std::size_t n, bool bounds_changed, const SweptBatch& swept) {
+void Sweeps<Number>::judge(std::size_t n, bool bounds_changed, const PgsBatch& pgs) {
     Course& course = courses_[n];
     SweepProgress& progress = course.progress;
     const SweepChange& change = changes_[n];
     const bool last = progress.isLast();
     progress.countSweep();
-    if (last && !course.leapt) {
-        course.active = !endPass(n, swept);
+    if (last && !course.stepped_directly) {
+        course.active = !endPass(n, pgs);
         return;
     }
-    const bool fails = course.leapt && !(change.squared < worthwhile * progress.gradient());
-    if (fails) goBack(course);
-    if (course.leapt) progress.forgetDirection();
-    course.leapt = false;
-    course.may_leap = course.may_leap && !fails;
+    const bool fails = course.stepped_directly && !(change.squared < worthwhile * progress.gradient());
+    if (fails) revert(course);
+    if (course.stepped_directly) progress.forgetDirection();
+    course.stepped_directly = false;
+    course.may_step_directly = course.may_step_directly && !fails;
     if ((progress.isSteady(change) && !bounds_changed) || last) {
-        course.active = !endPass(n, swept);
+        course.active = !endPass(n, pgs);
         return;
     }
     if (fails) return;
-    course.leapt = course.may_leap && progress.sweeps() >= sweeps_before_leap && leap(course, swept);
-    course.advances = !course.leapt;
+    course.stepped_directly =
+        course.may_step_directly && progress.sweeps() >= sweeps_before_direct_step && takeDirectStep(course, pgs);
+    course.advances = !course.stepped_directly;
     if (course.advances) {
         course.starts = !progress.hasDirection();
         course.beta = bounds_changed ? 0 : progress.beta(change);
@@ -183,35 +184,35 @@ void Sweeps<Number>::judge(std::size_t n, bool bounds_changed, const SweptBatch&
 
 /// @return whether the batch is done: nothing slides that sweeps took as sticking
 template <class Number>
-bool Sweeps<Number>::endPass(std::size_t n, const SweptBatch& swept) {
+bool Sweeps<Number>::endPass(std::size_t n, const PgsBatch& pgs) {
     Course& course = courses_[n];
     // Only what static friction cannot hold slides. Where both frictions are the same this costs nothing.
     if (course.two_frictions) {
-        const bool plain = sweeper_.releaseSliding(swept, course.range);
-        const bool framed = framed_.releaseSliding(swept);
+        const bool plain = sweeper_.releaseSliding(pgs, course.range);
+        const bool framed = framed_.releaseSliding(pgs);
         if (plain || framed) {
             course.two_frictions = false;
             course.progress = SweepProgress(course.plan);
             return false;
         }
     }
-    if (!coloured_) sweeper_.finishLane(n, course.range, swept);
+    if (!coloured_) sweeper_.finishLane(n, course.range, pgs);
     return true;
 }
 
 /// Takes the direct step, as far as the friction cones allow it. @return whether there is one
 template <class Number>
-bool Sweeps<Number>::leap(Course& course, const SweptBatch& swept) {
+bool Sweeps<Number>::takeDirectStep(Course& course, const PgsBatch& pgs) {
     gathered_.clear();
     for (std::size_t i = course.range.contact_begin; i < course.range.contact_end; ++i) {
-        gathered_.push_back(sweeper_.contactAt(i, swept));
+        gathered_.push_back(sweeper_.contactAt(i, pgs));
     }
     const BodyRange moving{static_cast<std::uint32_t>(course.range.body_begin),
                            static_cast<std::uint32_t>(course.range.body_end)};
     if (!direct_.compute(local_.bodies, moving, gathered_)) return false;
     course.kept.clear();
     for (std::size_t i = 0; i < gathered_.size(); ++i) {
-        const SweptContact& s = gathered_[i];
+        const PgsContact& s = gathered_[i];
         course.kept.push_back(s.impulse);
         const Triple1 wanted = s.impulse + Triple1(direct_.changes()[i]);
         const double normal = s.normal.dot(wanted);
@@ -223,14 +224,14 @@ bool Sweeps<Number>::leap(Course& course, const SweptBatch& swept) {
 
 /// Undoes it.
 template <class Number>
-void Sweeps<Number>::goBack(const Course& course) {
+void Sweeps<Number>::revert(const Course& course) {
     for (std::size_t i = 0; i < course.kept.size(); ++i) {
         sweeper_.setImpulse(course.range.contact_begin + i, course.kept[i], local_);
     }
 }
 
 template <class Number>
-void Sweeps<Number>::accelerate(const SweptBatch& swept) {
+void Sweeps<Number>::accelerate(const PgsBatch& pgs) {
     std::array<double, lanes> beta{};
     std::array<double, lanes> advances{};
     bool any = false;
@@ -251,8 +252,8 @@ void Sweeps<Number>::accelerate(const SweptBatch& swept) {
     if (!any) return;
     if (coloured_) {
         if (courses_[0].starts) sweeper_.restart();
-        direction_.accelerate(beta[0], local_, swept.executor);
-        sweeper_.accelerate(beta[0], swept);
+        direction_.accelerate(beta[0], local_, pgs.executor);
+        sweeper_.accelerate(beta[0], pgs);
     } else {
         sweeper_.accelerateLanes(beta, advances);
     }

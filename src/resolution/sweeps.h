@@ -16,7 +16,7 @@ namespace cairn {
 /// and accelerates the sweeps. Sweeping back as well as forth keeps the contacts of a body alike, so that resting piles
 /// do not creep, and makes a sweep a symmetric preconditioner.
 ///
-/// Batches share no body that moves. So several small ones are swept together, each in a lane of the vectors: every
+/// Batches share no body that moves. So several small ones are solved together, each in a lane of the vectors: every
 /// lane visits the contacts of its batch from body to body, as if it were alone, and stops when that batch is done. A
 /// large one gets all lanes, and all threads, by colours. One object per thread: it owns its scratch memory.
 /// @tparam Number a double for one batch at a time, or Lanes
@@ -35,32 +35,32 @@ class Sweeps {
     std::uint32_t sweepsOf(std::size_t batch) const { return courses_[batch].sweeps; }
 
   private:
-    /// A batch that is swept.
+    /// A batch that is solved.
     struct Course {
         SweepPlan plan;
         SweepProgress progress;
         LaneRange range;
         std::uint32_t sweeps = 0;
         bool active = false;
-        bool two_frictions = false;  ///< and who slides does not have its kinetic friction yet
-        bool may_leap = false;       ///< direct steps are allowed
-        bool leapt = false;          ///< the impulses were changed by a direct step, which the next sweep judges
-        bool advances = false;       ///< is accelerated before its next sweep
-        bool starts = false;         ///< and has no last direction
-        double beta = 0;             ///< how much of the last direction is added
-        std::vector<Triple1> kept;   ///< [contacts] impulses before a direct step [N·s]
+        bool two_frictions = false;      ///< and who slides does not have its kinetic friction yet
+        bool may_step_directly = false;  ///< direct steps are allowed
+        bool stepped_directly = false;   ///< the impulses were changed by a direct step, which the next sweep judges
+        bool advances = false;           ///< is accelerated before its next sweep
+        bool starts = false;             ///< and has no last direction
+        double beta = 0;                 ///< how much of the last direction is added
+        std::vector<Triple1> kept;       ///< [contacts] impulses before a direct step [N·s]
     };
 
     void gather(std::span<const BatchView> batches, std::span<const BatchKind> kinds, std::span<const Contact> contacts,
                 const BodyState& bodies, const ResolutionSettings& settings);
-    void begin(const SweptBatch& swept, const BatchKind& kind);
-    std::int64_t sweepAll(const SweptBatch& swept);
-    void sweepOnce(const SweptBatch& swept, bool measured);
-    void judge(std::size_t n, bool bounds_changed, const SweptBatch& swept);
-    bool endPass(std::size_t n, const SweptBatch& swept);
-    bool leap(Course& course, const SweptBatch& swept);
-    void accelerate(const SweptBatch& swept);
-    void goBack(const Course& course);
+    void begin(const PgsBatch& pgs, const BatchKind& kind);
+    std::int64_t sweepAll(const PgsBatch& pgs);
+    void sweepOnce(const PgsBatch& pgs, bool measured);
+    void judge(std::size_t n, bool bounds_changed, const PgsBatch& pgs);
+    bool endPass(std::size_t n, const PgsBatch& pgs);
+    bool takeDirectStep(Course& course, const PgsBatch& pgs);
+    void accelerate(const PgsBatch& pgs);
+    void revert(const Course& course);
 
     LocalBatch local_;
     LaneSweeper<Number> sweeper_;
@@ -71,7 +71,7 @@ class Sweeps {
     std::vector<std::uint32_t> contacts_;         ///< likewise, then the framed ones
     std::vector<std::uint32_t> framed_contacts_;  ///< the latter
     std::size_t plain_ = 0;                       ///< contacts_ below this are in lanes
-    std::vector<SweptContact> gathered_;          ///< of one batch, for direct steps
+    std::vector<PgsContact> gathered_;            ///< of one batch, for direct steps
     std::array<Course, lanes> courses_;
     std::array<SweepChange, lanes> changes_;  ///< by the last sweep
     bool coloured_ = false;                   ///< one batch has all lanes

@@ -78,7 +78,7 @@ class SweepsOfAll final : public Resolution {
         }
     };
 
-    /// Batches that are swept together; one that is swept alone is a pack, too.
+    /// Batches that are solved together; one that is solved alone is a pack, too.
     struct Pack {
         std::size_t begin = 0;  ///< in packed_
         std::size_t size = 0;
@@ -92,7 +92,7 @@ class SweepsOfAll final : public Resolution {
         std::array<EnergyGuard, lane_count> guards;
     };
 
-    /// Finds out which batches are swept how. Batches of one pack should need about as many sweeps: as many as in the
+    /// Finds out which batches are solved how. Batches of one pack should need about as many sweeps: as many as in the
     /// last step is the best guess, and a wrong one costs time only.
     void divide() {
         const ResolutionInput& in = *input_;

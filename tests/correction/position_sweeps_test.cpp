@@ -14,11 +14,11 @@ namespace cairn::test {
 namespace {
 
 /// A scene with gravity and its correction.
-struct SweptScene : ContactScene {
+struct SweepsScene : ContactScene {
     static constexpr double threshold = 0.01;
     static constexpr double gravity = 10;
 
-    SweptScene() { settings.penetration_threshold = threshold; }
+    SweepsScene() { settings.penetration_threshold = threshold; }
     CorrectionCounts run() {
         PositionSweeps sweeps;
         return runWith(sweeps);
@@ -46,10 +46,10 @@ struct SweptScene : ContactScene {
 };
 
 TEST(PositionSweeps, LeaveContactsDownToTheThreshold) {
-    SweptScene scene;
+    SweepsScene scene;
     const BodyIndex x = scene.addBody();
     const BodyIndex ground = scene.addFixed();
-    scene.touch(x, ground, up, -SweptScene::threshold);
+    scene.touch(x, ground, up, -SweepsScene::threshold);
     EXPECT_EQ(scene.run().penetrating, 0);
     EXPECT_EQ(scene.position[x], Vec3::Zero());
     scene.contacts[0].distance = 2e-3;
@@ -58,7 +58,7 @@ TEST(PositionSweeps, LeaveContactsDownToTheThreshold) {
 }
 
 TEST(PositionSweeps, LeaveTheRemainingPartOfADeeperOne) {
-    SweptScene scene;
+    SweepsScene scene;
     scene.remaining_part = 0.7;
     const BodyIndex x = scene.addBody();
     const BodyIndex ground = scene.addFixed();
@@ -73,7 +73,7 @@ TEST(PositionSweeps, LeaveTheRemainingPartOfADeeperOne) {
 }
 
 TEST(PositionSweeps, LeaveHalfOfWhatIsFarTooDeep) {
-    SweptScene scene;
+    SweepsScene scene;
     const BodyIndex x = scene.addBody();
     const BodyIndex ground = scene.addFixed();
     scene.touch(x, ground, up, -0.03);
@@ -84,7 +84,7 @@ TEST(PositionSweeps, LeaveHalfOfWhatIsFarTooDeep) {
 }
 
 TEST(PositionSweeps, TurnABodyAboutTheFootThatIsTooDeep) {
-    SweptScene scene;
+    SweepsScene scene;
     const BodyIndex ground = scene.addFixed();
     const BodyIndex x = scene.addBody();
     scene.touch(x, ground, up, -0.012);
@@ -97,7 +97,7 @@ TEST(PositionSweeps, TurnABodyAboutTheFootThatIsTooDeep) {
 }
 
 TEST(PositionSweeps, MoveThePairByInverseMasses) {
-    SweptScene scene;
+    SweepsScene scene;
     const BodyIndex light = scene.addBody();
     const BodyIndex heavy = scene.addBody();
     scene.mass_inv[heavy] = 0.25;
@@ -108,11 +108,11 @@ TEST(PositionSweeps, MoveThePairByInverseMasses) {
 }
 
 TEST(PositionSweeps, PushWhatAPushedBodyGetsTooDeepInto) {
-    SweptScene scene;
+    SweepsScene scene;
     const BodyIndex wall = scene.addFixed();
     for (int i = 0; i < 3; ++i) scene.addBody();
     scene.touch(1, wall, right, -0.03);
-    scene.touch(2, 1, right, -SweptScene::threshold);
+    scene.touch(2, 1, right, -SweepsScene::threshold);
     scene.touch(3, 2, right, 0.05);
     scene.run();
     EXPECT_GT(scene.position[1].x(), 0.01);
@@ -122,7 +122,7 @@ TEST(PositionSweeps, PushWhatAPushedBodyGetsTooDeepInto) {
 
 TEST(PositionSweeps, PayWhatTheyLiftFromTheMotionAlongTheNormal) {
     for (const double speed : {-2.0, 2.0}) {
-        SweptScene scene;
+        SweepsScene scene;
         const BodyIndex x = scene.addBody();
         const BodyIndex ground = scene.addFixed();
         scene.v[x] = Vec3(1, 0, speed);
@@ -131,12 +131,12 @@ TEST(PositionSweeps, PayWhatTheyLiftFromTheMotionAlongTheNormal) {
         scene.run();
         EXPECT_NEAR(scene.energy(), before, 1e-12);
         EXPECT_EQ(scene.v[x].x(), 1) << "along the normal only";
-        EXPECT_NEAR(scene.v[x].z(), std::copysign(std::sqrt(4 - 2 * SweptScene::gravity * 0.015), speed), 1e-12);
+        EXPECT_NEAR(scene.v[x].z(), std::copysign(std::sqrt(4 - 2 * SweepsScene::gravity * 0.015), speed), 1e-12);
     }
 }
 
 TEST(PositionSweeps, NeverReverseWhatHasLessThanItOwes) {
-    SweptScene scene;
+    SweepsScene scene;
     const BodyIndex x = scene.addBody();
     const BodyIndex ground = scene.addFixed();
     scene.v[x] = Vec3(0, 0, -0.1);
@@ -146,7 +146,7 @@ TEST(PositionSweeps, NeverReverseWhatHasLessThanItOwes) {
 }
 
 TEST(PositionSweeps, KeepMomentumAndEnergyOfPairsThatPay) {
-    SweptScene scene;
+    SweepsScene scene;
     const BodyIndex lower = scene.addBody(Vec3(0.3, 0.1, 0));
     const BodyIndex upper = scene.addBody(Vec3(0, 0, 1));
     scene.mass_inv[lower] = 0.1;
@@ -156,16 +156,16 @@ TEST(PositionSweeps, KeepMomentumAndEnergyOfPairsThatPay) {
     const auto momentum = [&] { return Vec3(10 * scene.v[lower] + scene.v[upper]); };
     const Vec3 linear = momentum();
     const double before = scene.energy();
-    const double kinetic = before - SweptScene::gravity * (10 * scene.position[lower].z() + scene.position[upper].z());
+    const double kinetic = before - SweepsScene::gravity * (10 * scene.position[lower].z() + scene.position[upper].z());
     scene.run();
     EXPECT_TRUE(near(momentum(), linear));
-    EXPECT_LT(scene.energy() - SweptScene::gravity * (10 * scene.position[lower].z() + scene.position[upper].z()),
+    EXPECT_LT(scene.energy() - SweepsScene::gravity * (10 * scene.position[lower].z() + scene.position[upper].z()),
               kinetic);
     EXPECT_LE(scene.energy(), before + 1e-12);
 }
 
 TEST(PositionSweeps, WakeWhomTheyMoveAndGiveNoMotionToSleepers) {
-    SweptScene scene;
+    SweepsScene scene;
     const BodyIndex ground = scene.addFixed();
     const BodyIndex x = scene.addBody();
     const BodyIndex sleeper = scene.addBody();
@@ -181,7 +181,7 @@ TEST(PositionSweeps, WakeWhomTheyMoveAndGiveNoMotionToSleepers) {
 }
 
 TEST(PositionSweeps, LeaveWhatIsNotFiniteWhereItIs) {
-    SweptScene scene;
+    SweepsScene scene;
     const BodyIndex ground = scene.addFixed();
     const BodyIndex x = scene.addBody();
     const BodyIndex y = scene.addBody();
@@ -193,8 +193,8 @@ TEST(PositionSweeps, LeaveWhatIsNotFiniteWhereItIs) {
 }
 
 /// A column of bodies, all too deep in each other.
-SweptScene sweptLayers() {
-    SweptScene scene;
+SweepsScene layeredScene() {
+    SweepsScene scene;
     scene.addFixed();
     for (int i = 1; i <= 40; ++i) {
         scene.addBody(Vec3(0, 0, 0.1 * i));
@@ -206,13 +206,13 @@ SweptScene sweptLayers() {
 
 TEST(PositionSweeps, RepeatThemselvesWhateverTheyDidBefore) {
     PositionSweeps used;
-    SweptScene other;
+    SweepsScene other;
     other.addBody();
     other.addFixed();
     other.touch(0, 1, up, -0.5);
     other.runWith(used);
-    SweptScene first = sweptLayers();
-    SweptScene second = sweptLayers();
+    SweepsScene first = layeredScene();
+    SweepsScene second = layeredScene();
     first.run();
     second.runWith(used);
     EXPECT_EQ(first.position, second.position);

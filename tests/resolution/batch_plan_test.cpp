@@ -23,7 +23,7 @@ bool mayLeap(BodyIndex balls, BodyIndex loops, double speed = 0) {
     std::iota(bodies.begin(), bodies.end(), 0U);
     std::vector<std::uint32_t> indices(pile.contacts.size());
     std::iota(indices.begin(), indices.end(), 0U);
-    return kindOf({bodies, indices, {}}, pile.contacts, pile.state(), {}).may_leap;
+    return kindOf({bodies, indices, {}}, pile.contacts, pile.state(), {}).may_step_directly;
 }
 
 TEST(BatchPlan, ChainsAtRestTakeDirectStepsHoweverLongTheyAre) {

@@ -30,38 +30,38 @@ Pile groove() {
 }
 
 TEST(Sweep, ConvergesToTheVelocitiesOfTheQueue) {
-    Pile swept = groove();
-    Pile queued = swept;
-    ASSERT_GT(swept.resolve(sweepSettings()).global_iterations, 10);
+    Pile solved = groove();
+    Pile queued = solved;
+    ASSERT_GT(solved.resolve(sweepSettings()).global_iterations, 10);
     queued.resolve(exactSettings());
     // Not the last digit: impulses are never taken back, so that what the order of early ones gave stays.
-    for (std::size_t i = 0; i < swept.kind.size(); ++i) {
-        EXPECT_LT((swept.v[i] - queued.v[i]).norm(), 1e-3) << "body " << i;  // of 0.1 m/s
-        EXPECT_LT((swept.w[i] - queued.w[i]).norm(), 1e-3) << "body " << i;
-        EXPECT_LT(swept.v[i].norm(), 0.005) << "body " << i;
+    for (std::size_t i = 0; i < solved.kind.size(); ++i) {
+        EXPECT_LT((solved.v[i] - queued.v[i]).norm(), 1e-3) << "body " << i;  // of 0.1 m/s
+        EXPECT_LT((solved.w[i] - queued.w[i]).norm(), 1e-3) << "body " << i;
+        EXPECT_LT(solved.v[i].norm(), 0.005) << "body " << i;
     }
 }
 
 TEST(Sweep, ResolvesEqualToTheQueueWhereTheOrderDoesNotMatter) {
     // One contact per pair of bodies that touch nothing else.
-    Pile swept;
+    Pile solved;
     Random random(9);
     for (int i = 0; i < 50; ++i) {
         const double mass = random.uniform(1, 2);
-        const BodyIndex a = swept.add(random.vector(9), mass, randomInertia(random, mass));
-        const BodyIndex b = swept.addSphere(random.vector(9));
-        swept.v[a] = random.vector(1);
-        swept.w[b] = random.vector(1);
+        const BodyIndex a = solved.add(random.vector(9), mass, randomInertia(random, mass));
+        const BodyIndex b = solved.addSphere(random.vector(9));
+        solved.v[a] = random.vector(1);
+        solved.w[b] = random.vector(1);
         const Vec3 normal = random.vector(1).normalized();
-        swept.touch(a, b, 0.5 * (swept.position[a] + swept.position[b]), normal, 0.5, {0.3, 0.2});
+        solved.touch(a, b, 0.5 * (solved.position[a] + solved.position[b]), normal, 0.5, {0.3, 0.2});
     }
-    Pile queued = swept;
-    const ResolutionCounts counts = swept.resolve(sweepSettings());
+    Pile queued = solved;
+    const ResolutionCounts counts = solved.resolve(sweepSettings());
     EXPECT_EQ(counts.global_iterations, queued.resolve(exactSettings()).global_iterations);
     EXPECT_GT(counts.global_iterations, 10);
-    for (std::size_t i = 0; i < swept.kind.size(); ++i) {
-        EXPECT_EQ(swept.v[i], queued.v[i]);
-        EXPECT_EQ(swept.w[i], queued.w[i]);
+    for (std::size_t i = 0; i < solved.kind.size(); ++i) {
+        EXPECT_EQ(solved.v[i], queued.v[i]);
+        EXPECT_EQ(solved.w[i], queued.w[i]);
     }
 }
 

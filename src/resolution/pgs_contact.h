@@ -13,7 +13,7 @@ namespace cairn {
 /// All that a sweep reads and writes of a contact, in world coordinates, side by side.
 /// @tparam NumberType of one contact a plain number, of four Lanes
 template <class NumberType>
-struct alignas(sizeof(NumberType)) BasicSweptContact {
+struct alignas(sizeof(NumberType)) BasicPgsContact {
     using Number = NumberType;
     using Vector = Triple<Number>;
     using Symmetric = BasicSymmetric3<Number>;
@@ -31,14 +31,14 @@ struct alignas(sizeof(NumberType)) BasicSweptContact {
 };
 
 /// One contact: four cache lines, of which a contact that sticks needs three.
-struct alignas(64) SweptContact : ContactEnds, BasicSweptContact<double> {};
+struct alignas(64) PgsContact : ContactEnds, BasicPgsContact<double> {};
 
 /// Four contacts.
-using WideContact = BasicSweptContact<Lanes>;
+using WideContact = BasicPgsContact<Lanes>;
 
 /// What a visit reads and writes of a body, or of the four of four contacts.
 template <class Number>
-struct SweptBody {
+struct PgsBody {
     Triple<Number> v;  ///< [m/s, W]
     Triple<Number> w;  ///< [rad/s, W]
     Number mass_inv{};
@@ -51,20 +51,20 @@ constexpr int sliding_rounds = 2;
 
 /// The same of a body that no impulse moves.
 template <class Number>
-struct SweptFixedBody {
+struct PgsFixedBody {
     Triple<Number> v;  ///< [m/s, W]
     Triple<Number> w;  ///< [rad/s, W]
 };
 
-inline SweptFixedBody<double> readFixed(const LocalBody& body) {
+inline PgsFixedBody<double> readFixed(const LocalBody& body) {
     return {Triple1(body.v), Triple1(body.w)};
 }
-inline SweptBody<double> read(const LocalBody& body) {
+inline PgsBody<double> read(const LocalBody& body) {
     return {Triple1(body.v), Triple1(body.w), body.mass_inv, body.inertia_inv};
 }
-inline void write(const SweptBody<double>& swept, LocalBody& body) {
-    body.v = toVec3(swept.v);
-    body.w = toVec3(swept.w);
+inline void write(const PgsBody<double>& pgs, LocalBody& body) {
+    body.v = toVec3(pgs.v);
+    body.w = toVec3(pgs.w);
 }
 
 /// Adds one body's part −R·I⁻¹·R + m⁻¹·1 of K. @source thesis (3.4.11a)
@@ -110,7 +110,7 @@ template <class Contact>
 
 /// Where K cannot be inverted (masses beyond what doubles can divide) the contact keeps its normal part only, and where
 /// not even that exists it cannot be resolved. @pre setInvertible(contact, …)
-inline void mendSingular(SweptContact& contact) {
+inline void mendSingular(PgsContact& contact) {
     const Vec3 n = toVec3(contact.normal);
     if (isFinite(contact.k_inv) && n.dot(contact.k_inv * n) > 0 && std::isfinite(contact.tangential_mass)) return;
     const double k_nn = 1 / contact.normal_mass;
@@ -121,7 +121,7 @@ inline void mendSingular(SweptContact& contact) {
     contact.k_inv = Symmetric3::from(contact.normal_mass * n * n.transpose());
 }
 
-inline bool isResolvable(const SweptContact& contact) {
+inline bool isResolvable(const PgsContact& contact) {
     return contact.normal_mass > 0;
 }
 
@@ -134,21 +134,19 @@ template <class Contact, class A, class B>
 
 template <class Number>
 [[gnu::always_inline]] inline void receive(const Triple<Number>& impulse, const Triple<Number>& r,
-                                           SweptBody<Number>& body) {
+                                           PgsBody<Number>& body) {
     body.v += body.mass_inv * impulse;
     body.w += body.inertia_inv * r.cross(impulse);
 }
 template <class Number>
-[[gnu::always_inline]] inline void give(const Triple<Number>& impulse, const Triple<Number>& r,
-                                        SweptBody<Number>& body) {
+[[gnu::always_inline]] inline void give(const Triple<Number>& impulse, const Triple<Number>& r, PgsBody<Number>& body) {
     body.v -= body.mass_inv * impulse;
     body.w -= body.inertia_inv * r.cross(impulse);
 }
 template <class Number>
-[[gnu::always_inline]] inline void receive(const Triple<Number>&, const Triple<Number>&,
-                                           const SweptFixedBody<Number>&) {}
+[[gnu::always_inline]] inline void receive(const Triple<Number>&, const Triple<Number>&, const PgsFixedBody<Number>&) {}
 template <class Number>
-[[gnu::always_inline]] inline void give(const Triple<Number>&, const Triple<Number>&, const SweptFixedBody<Number>&) {}
+[[gnu::always_inline]] inline void give(const Triple<Number>&, const Triple<Number>&, const PgsFixedBody<Number>&) {}
 
 /// @param impulse on A [N·s]
 template <class Contact, class A, class B>
@@ -158,7 +156,7 @@ template <class Contact, class A, class B>
 }
 
 /// Whether a contact that pushes slides. @param threshold of the resolution [m/s]
-inline bool slides(const SweptContact& contact, const LocalBody& a, const LocalBody& b, double threshold) {
+inline bool slides(const PgsContact& contact, const LocalBody& a, const LocalBody& b, double threshold) {
     if (!(contact.normal.dot(contact.impulse) > 0)) return false;
     // What is slower than this only has not converged yet.
     const double sliding = 10 * threshold;

@@ -10,7 +10,7 @@
 namespace cairn {
 
 /// What sweeps work on.
-struct SweptBatch {
+struct PgsBatch {
     LocalBatch& local;
     const BatchView& batch;
     std::span<Contact> contacts;
