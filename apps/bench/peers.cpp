@@ -197,9 +197,9 @@ std::string tableOf(const std::vector<Entry>& entries) {
 }  // namespace
 
 const std::vector<std::string>& peerScenes() {
-    static const std::vector<std::string> names = {"stacks5", "well324",   "cage384",   "stacks8",
-                                                   "well392", "cage2816",  "tower:20",  "tower:40",
-                                                   "wall:30", "heap:2000", "heavy:1000"};
+    static const std::vector<std::string> names = {"stacks5",  "well324",  "cage384",   "stacks8", "well392",
+                                                   "cage2816", "tower:20", "tower:40",  "wall:30", "heap:2000",
+                                                   "pit:800",  "pit:3200", "heavy:1000"};
     return names;
 }
 

@@ -85,6 +85,7 @@ Scene swingingCradleScene(std::string name, int balls, int moving);
 Scene towerScene(std::string name, int boxes);
 Scene wallScene(std::string name, int rows);
 Scene heapScene(std::string name, int bodies);
+Scene pitScene(std::string name, int boxes);
 
 // Terrain, moved ground and machines.
 Scene rockfallScene(std::string name);

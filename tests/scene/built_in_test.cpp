@@ -106,8 +106,8 @@ TEST(BuiltInScenes, WallsAndTowersTouchAwake) {
     EXPECT_TRUE(tower.bodies[2].position.isApprox(Vec3(0, 0, 0.15), 1e-12));
 }
 
-TEST(BuiltInScenes, HeapBodiesStartApartWithinThePit) {
-    for (const std::string name : {"heap:1", "heap:10", "heap:2000"}) {
+TEST(BuiltInScenes, BodiesOfHeapsAndPitsStartApartBetweenTheWalls) {
+    for (const std::string name : {"heap:1", "heap:10", "heap:2000", "pit:1", "pit:900"}) {
         const Scene scene = builtInScene(name);
         const double half = scene.bodies[3].position.y() + std::get<Box>(scene.bodies[3].shape).size.y() / 2;
         double top = 0;
@@ -130,7 +130,7 @@ TEST(BuiltInScenes, HeapBodiesStartApartWithinThePit) {
                 ASSERT_GT((a.position - b.position).norm(), radius + largestRadius(b.shape)) << i << " " << j;
             }
         }
-        if (scene.bodies.size() > 100) {
+        if (scene.bodies.size() > 1000) {
             for (int kind = 0; kind < 3; ++kind) EXPECT_GT(kinds[static_cast<std::size_t>(kind)], 500);
         }
     }
@@ -164,6 +164,7 @@ TEST(BuiltInScenes, RefuseBadNamesAndNumbers) {
         {"tower:3:4", "too many parts"},
         {"wall:401", "1 to 400"},
         {"heap:100001", "1 to 100000"},
+        {"pit:20001", "1 to 20000"},
         {"cradle:1", "2 to 1000"},
         {"cradle:5:5", "1 to 4"},
         {"cradle:5:0", "1 to 4"},
