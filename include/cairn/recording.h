@@ -156,6 +156,9 @@ class RecordingReader {
     const RecordingInfo& info() const;  ///< read once, when the file is opened
     /// @param index 0 (the initial state) to info().frames − 1 @throws InputError, IoError
     Frame frame(std::size_t index) const;
+    /// What one rank recorded of a frame: its bodies, the others have no position; with their contacts and joints.
+    /// @param part 0 to info().parts − 1 @throws InputError, IoError
+    Frame framePart(std::size_t index, std::size_t part) const;
 
   private:
     struct Impl;

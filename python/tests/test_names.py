@@ -49,7 +49,7 @@ WITHOUT: dict[str, str] = {
     **dict.fromkeys(("World.share", "World.gather", "World.isDivided", "World.sums", "World.meanOverlap", "WorldSums", "World.ranks"), "likewise"),
     **dict.fromkeys(("SavedPart", "World.savePart", "World.restoreParts", "SceneRun.savePart", "SceneRun.restoreParts"), "likewise"),
     **dict.fromkeys(("World.isOwn", "FramePart", "captureFramePart", "RecordingPartWriter", "recordingPart"), "likewise"),
-    **dict.fromkeys(("RecordingOptions.parts", "RecordingOptions.mark", "RecordingInfo.parts"), "likewise"),
+    **dict.fromkeys(("RecordingReader.framePart", "RecordingOptions.parts", "RecordingOptions.mark", "RecordingInfo.parts"), "likewise"),
     "mergeRecording": "cairn merge",
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -81,6 +82,14 @@ void addBody(VtkPolygons& out, const DrawnBody& drawn, const Frame& frame, std::
     out.speed.resize(cells, static_cast<float>(frame.linear_velocity[body].norm()));
 }
 
+void draw(const std::vector<DrawnBody>& drawn, const Frame& frame, VtkPolygons& polygons) {
+    polygons.clear();
+    for (std::size_t body = 0; body < drawn.size(); ++body) {
+        // Removed bodies have no position, nor have those of other ranks.
+        if (frame.position[body].allFinite()) addBody(polygons, drawn[body], frame, body);
+    }
+}
+
 void createFolder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
@@ -93,11 +102,13 @@ class VtkSeries {
     /// @param folder of the files @param kind that follows its name, for the .pvd file and the files
     VtkSeries(std::filesystem::path folder, std::string kind) : folder_(std::move(folder)), kind_(std::move(kind)) {}
 
+    /// @param part of a recording in parts
     template <class Content>
-    void add(double time, const Content& content) {
-        const std::string name = fmt::format("{}{}_{:06}.vtp", folder_.filename().string(), kind_, steps_.size());
+    void add(std::size_t frame, double time, const Content& content, std::optional<std::size_t> part = {}) {
+        const std::string rank = part ? fmt::format("_rank{}", *part) : "";
+        const std::string name = fmt::format("{}{}{}_{:06}.vtp", folder_.filename().string(), kind_, rank, frame);
         writeVtp(content, folder_ / name);
-        steps_.push_back({time, folder_.filename().string() + '/' + name});
+        steps_.push_back({time, folder_.filename().string() + '/' + name, part.value_or(0)});
     }
     void close() const {
         std::filesystem::path file = folder_;
@@ -127,16 +138,20 @@ void exportVtk(const RecordingReader& recording, const std::filesystem::path& fi
     const bool has_forces = info.contacts || info.joints;
     const ForceLines force_lines(info.scene, settingsOf(info).steps_per_second);
     for (std::size_t f = 0; f < info.frames; ++f) {
-        const Frame frame = recording.frame(f);
-        polygons.clear();
-        for (std::size_t body = 0; body < drawn.size(); ++body) {
-            // Removed bodies have no position.
-            if (frame.position[body].allFinite()) addBody(polygons, drawn[body], frame, body);
+        for (std::size_t part = 0; part < info.parts; ++part) {
+            const Frame of_rank = recording.framePart(f, part);
+            draw(drawn, of_rank, polygons);
+            surfaces.add(f, of_rank.time, polygons, part);
         }
-        surfaces.add(frame.time, polygons);
+        if (info.parts > 0 && !has_forces) continue;
+        const Frame frame = recording.frame(f);
+        if (info.parts == 0) {
+            draw(drawn, frame, polygons);
+            surfaces.add(f, frame.time, polygons);
+        }
         if (!has_forces) continue;
         force_lines.of(frame, lines);
-        forces.add(frame.time, lines);
+        forces.add(f, frame.time, lines);
     }
     surfaces.close();
     if (has_forces) forces.close();

@@ -176,6 +176,11 @@ struct RecordingReader::Impl {
         }
         requireLength(path, end);
     }
+    void requireFrame(std::size_t index) const {
+        if (index < info.frames) return;
+        throw InputError(fmt::format("{}: there is no frame {}, the recording has {} frames, counted from 0",
+                                     path.string(), index, info.frames));
+    }
 
     std::filesystem::path path;
     hdf5::File file;
@@ -202,12 +207,22 @@ const RecordingInfo& RecordingReader::info() const {
     return impl_->info;
 }
 
+Frame RecordingReader::framePart(std::size_t index, std::size_t part) const {
+    impl_->requireFrame(index);
+    if (part >= impl_->parts.size()) {
+        throw InputError(fmt::format("{}: there is no part {}, the recording has {} parts, counted from 0",
+                                     impl_->path.string(), part, impl_->parts.size()));
+    }
+    const hdf5::QuietErrors quiet;
+    Frame frame = emptyFrame(impl_->info);
+    impl_->series->time.read(index, &frame.time);
+    impl_->parts[part]->read(index, frame);
+    return frame;
+}
+
 Frame RecordingReader::frame(std::size_t index) const {
     const Impl& impl = *impl_;
-    if (index >= impl.info.frames) {
-        throw InputError(fmt::format("{}: there is no frame {}, the recording has {} frames, counted from 0",
-                                     impl.path.string(), index, impl.info.frames));
-    }
+    impl.requireFrame(index);
     const hdf5::QuietErrors quiet;
     const auto& series = *impl.series;
     Frame frame = emptyFrame(impl.info);

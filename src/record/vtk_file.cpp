@@ -154,8 +154,8 @@ void writePvd(const std::vector<VtkTimeStep>& steps, const std::filesystem::path
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"{}\">\n<Collection>\n",
         byte_order);
     for (const VtkTimeStep& step : steps) {
-        fmt::format_to(std::back_inserter(text), "<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n",
-                       step.time, escaped(step.file));
+        fmt::format_to(std::back_inserter(text), "<DataSet timestep=\"{}\" group=\"\" part=\"{}\" file=\"{}\"/>\n",
+                       step.time, step.part, escaped(step.file));
     }
     text += "</Collection>\n</VTKFile>\n";
     OutputFile out(file);

@@ -43,8 +43,9 @@ void writeVtp(const VtkLines& lines, const std::filesystem::path& file);
 
 /// A file of a time series.
 struct VtkTimeStep {
-    double time;       ///< [s]
-    std::string file;  ///< relative to the .pvd file
+    double time;           ///< [s]
+    std::string file;      ///< relative to the .pvd file
+    std::size_t part = 0;  ///< of what is there at that time
 };
 
 /// Writes a .pvd file, which names the files of a time series. @throws IoError

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "cairn/recording.h"
 #include "cli/cli_fixture.h"
@@ -102,7 +103,29 @@ TEST_F(SharedRuns, RecordWhatOneRankRecords) {
         EXPECT_EQ(other.info().parts, name == "three.h5" ? 3 : 0);
         for (std::size_t i = 0; i < one.info().frames; ++i) expectEqual(one.frame(i), other.frame(i));
     }
+    // Each moving body is in the part of one rank.
+    const RecordingReader three(file("three.h5"));
+    const Frame whole = three.frame(7);
+    std::vector<int> found(three.info().bodies);
+    for (std::size_t part = 0; part < 3; ++part) {
+        const Frame of_rank = three.framePart(7, part);
+        EXPECT_EQ(of_rank.time, whole.time);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            if (!of_rank.position[i].allFinite()) continue;
+            ++found[i];
+            EXPECT_EQ(of_rank.position[i], whole.position[i]);
+        }
+    }
+    for (const int times : found) EXPECT_EQ(times, 1);
+    EXPECT_THROW(three.framePart(7, 3), InputError);
+    EXPECT_THROW(one.framePart(7, 0), InputError);
     EXPECT_EQ(cairn({"export", "three.h5", "--vtk", "three.pvd"}).code, 0);
+    const std::string series = read("three.pvd");
+    for (const std::string rank : {"0", "1", "2"}) {
+        const std::string piece = "three/three_rank" + rank + "_000007.vtp";
+        EXPECT_TRUE(std::filesystem::exists(file(piece)));
+        EXPECT_NE(series.find("part=\"" + rank + "\" file=\"" + piece + "\""), std::string::npos) << piece;
+    }
     expectWrongUse({"merge", "merged.h5", "--out", "again.h5"}, {"nothing to merge"});
     expectWrongUse({"merge", "three.h5", "--out", "three.rank1.h5"}, {"name another for --out"});
     expectWrongUse({"merge", "three.h5", "one.h5", "--out", "x.h5"}, {"'one.h5' is no part"});
