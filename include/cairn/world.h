@@ -256,12 +256,14 @@ class World {
     std::optional<Motion> frameMotion() const;  ///< none = it rests
 
     // --- many bodies at once: at the cost of a loop over arrays, with the checks and wakings of the calls above ---
-    /// The state of all bodies, without a copy; it follows the world until layoutVersion() changes.
+    /// The state of all bodies, without a copy; it follows the world until layoutVersion() changes. @throws InputError
+    /// if the world is divided among ranks: gather() first
     BodyViews bodyViews() const;
     /// Another number as soon as bodies were added or removed or a state was loaded, so that views are to be taken
     /// anew.
     std::uint64_t layoutVersion() const noexcept;
     /// What pose() says of every slot, into a vector whose memory is used again; entries of holes mean nothing.
+    /// @throws InputError as bodyViews()
     void posesTo(std::vector<Pose>& poses) const;
     /// Writing: one value per body, a later one of the same body after an earlier one. If one is refused, nothing is
     /// written. @throws StaleIdError, InputError as the call for one body, and unless there are as many values as ids

@@ -1,7 +1,11 @@
 #include "sharing/shared_bodies.h"
 
 #include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <unordered_map>
 #include <utility>
+#include <variant>
 
 #include "messages/packing.h"
 #include "sharing/body_records.h"
@@ -20,11 +24,14 @@ constexpr double time_ahead = 1.0 / 60;
 /// Time steps after which bodies that went into the region of another rank and met nobody go there.
 constexpr std::int64_t home_every = 30;
 
+/// Slots of bodies that went elsewhere, and may come back, are dropped when they are more than one in so many.
+constexpr std::size_t vacant_part = 8;
+
 /// Stands for no rank.
 constexpr std::uint32_t no_rank = UINT32_MAX;
 
 /// What follows in a message to another rank.
-enum class Item : std::uint8_t { body, contact, joint };
+enum class Item : std::uint8_t { slots, body, contact, joint };
 
 /// What a rank asks of the others at the beginning of a step …
 enum Wish : std::uint8_t { nothing = 0, groups_anew = 1, tell_frozen = 2 };
@@ -34,6 +41,12 @@ struct Asked {
     std::uint8_t wish;
     double fastest;  ///< DealtOut::fastest [m/s]
 };
+
+/// What copies of a shape that is not sent have in common. A compound has its parts for itself.
+const void* dataOf(const Shape& shape) {
+    if (const auto* hull = std::get_if<ConvexHull>(&shape)) return &hull->data();
+    return &shape;
+}
 
 std::uint64_t mixed(std::uint64_t x) {
     x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
@@ -53,30 +66,33 @@ SharedBodies::SharedBodies(Ranks& ranks, const Partition& partition) : ranks_(ra
     requirePartition(partition, ranks.size());
 }
 
-bool SharedBodies::settle(const DealtOut& world) {
+void SharedBodies::settle(const DealtOut& world) {
     if (whole_) {
         divide(world);
-        return true;
+        return;
     }
     if (ranks_.size() == 1) {
         // Nobody is elsewhere.
         fastest_ = world.fastest;
-        return false;
+        return;
     }
-    if (!isDue(world)) return false;
+    if (!isDue(world)) return;
     coverAll(world);
     const NearGroupsInput input = groupsInput(world);
     // Where no bodies of two ranks meet, each may stay where it is.
-    if (!groups_.meetOthers(input, world.executor, ranks_) && !goHome(world.step)) return false;
+    if (!groups_.meetOthers(input, world.executor, ranks_) && !goHome(world.step)) return;
     groups_.findAcross(input, world.executor, ranks_);
     findOwners(world);
-    return moveHouse(world);
+    moveHouse(world);
 }
 
 /// Every rank keeps its part of what all have.
 void SharedBodies::divide(const DealtOut& world) {
     BodyStorage& bodies = world.bodies;
     kind_.assign(bodies.kind.begin(), bodies.kind.end());
+    stays_.assign(bodies.slots(), 0);
+    for (const BodyIndex i : world.named) stays_[i] = 1;
+    listSolids(bodies);
     cover_.resize(bodies.slots());
     covered_.assign(bodies.slots(), 0);
     owner_.resize(bodies.slots());
@@ -104,24 +120,77 @@ void SharedBodies::divide(const DealtOut& world) {
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (isOwn(bodies, i) && owner_[i] != own) leave(bodies, i);
     }
-    bodies.adoptSlots(bodies.nextNumber());
+    bodies.beginPart();
     world.pairs.adopt(world.contacts);
-    bodies.setLending(true);
     whole_ = false;
+    // What was found of the whole world is not needed any more.
+    groups_ = NearGroups();
+    left_.assign(bodies.slots(), 0);
+    dropVacant(world, 0);
+    bodies.adoptSlots(bodies.nextNumber());
+}
+
+/// Numbers the shapes that are not sent, as all ranks do.
+void SharedBodies::listSolids(const BodyStorage& bodies) {
+    std::unordered_map<const void*, std::uint32_t> known;
+    solids_.clear();
+    solid_.assign(bodies.slots(), no_slot);
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        if (!isOwn(bodies, i) || isSent(bodies.shape[i])) continue;
+        const auto next = static_cast<std::uint32_t>(solids_.size());
+        const auto [place, is_new] = known.emplace(dataOf(bodies.shape[i]), next);
+        if (is_new) solids_.push_back(bodies.shape[i]);
+        solid_[i] = place->second;
+    }
+}
+
+/// Brings the bodies, and all that has an entry of each, into slots with other homes.
+void SharedBodies::takeHomes(const DealtOut& world, std::vector<BodyIndex> homes) {
+    const SlotMove move = world.bodies.takeHomes(std::move(homes));
+    // A new slot is for a body that another rank has.
+    rearrange(kind_, move, BodyKind::dynamic);
+    rearrange(stays_, move, 0);
+    rearrange(solid_, move, no_slot);
+    rearrange(cover_, move, {});
+    rearrange(covered_, move, 0);
+    rearrange(owner_, move, no_rank);
+    rearrange(ahead_, move, {});
+    rearrange(left_, move, 0);
+    world.rearrange(move);
+}
+
+/// Makes slots for the bodies that have none. @param homes in any order
+void SharedBodies::addHomes(const DealtOut& world, std::vector<BodyIndex> homes) {
+    const BodyStorage& bodies = world.bodies;
+    std::erase_if(homes, [&](BodyIndex home) { return bodies.slotOf(home) != no_slot; });
+    if (homes.empty()) return;
+    std::ranges::sort(homes);
+    homes.erase(std::unique(homes.begin(), homes.end()), homes.end());
+    std::vector<BodyIndex> all;
+    all.reserve(homes.size() + bodies.slots());
+    std::ranges::merge(homes, bodies.homes(), std::back_inserter(all));
+    takeHomes(world, std::move(all));
+}
+
+/// Drops the slots of bodies that are elsewhere, where they are more than so many. @pre no contact or pair is of them
+void SharedBodies::dropVacant(const DealtOut& world, std::size_t most) {
+    const BodyStorage& bodies = world.bodies;
+    std::vector<BodyIndex> homes;
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        if (!isVacant(bodies, i)) homes.push_back(bodies.homeOf(i));
+    }
+    if (bodies.slots() - homes.size() > most) takeHomes(world, std::move(homes));
 }
 
 void SharedBodies::gather(const DealtOut& world) {
     if (whole_) return;
     BodyStorage& bodies = world.bodies;
-    tellFrozen(bodies);
+    tellFrozen(world);
     std::vector<std::byte> message;
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (isOwn(bodies, i)) packResident(message, world, i);
     }
-    for (const Contact& contact : world.contacts) {
-        pack(message, Item::contact);
-        packContact(message, contact);
-    }
+    for (const Contact& contact : world.contacts) packNamed(message, bodies, contact);
     for (std::uint32_t j = 0; j < world.joints.size(); ++j) {
         const BodyIndex end = endOf(world.joints[j]);
         if (end == Joint::world || !isOwn(bodies, end)) continue;
@@ -131,11 +200,14 @@ void SharedBodies::gather(const DealtOut& world) {
     }
     Ranks::Messages told = tellAll(ranks_, message);
     told[static_cast<std::size_t>(ranks_.rank())].clear();
+    std::vector<BodyIndex> all(bodies.wholeSlots());
+    std::iota(all.begin(), all.end(), 0U);
+    addHomes(world, std::move(all));
     left_.assign(bodies.slots(), 0);
     takeIn(world, told);
     world.pairs.change({left_, came_, contacts_}, world.contacts);
+    bodies.endPart();
     bodies.adoptSlots(bodies.nextNumber());
-    bodies.setLending(false);
     whole_ = true;
 }
 
@@ -169,7 +241,7 @@ bool SharedBodies::isDue(const DealtOut& world) {
     if (fastest_ > covered_speed_) all |= groups_anew;
     const bool slower = (all & groups_anew) != 0 && fastest_ < covered_speed_ / 2;
     if (fastest_ > covered_speed_ || slower) coverSpeed();
-    if ((all & tell_frozen) != 0) tellFrozen(world.bodies);
+    if ((all & tell_frozen) != 0) tellFrozen(world);
     if (isRebalanced(world.step)) cut(world);
     return all != nothing;
 }
@@ -221,19 +293,22 @@ void SharedBodies::coverAll(const DealtOut& world) {
 }
 
 /// Lets all ranks know the bodies that were fixed by a fault: what is fixed is on all of them.
-void SharedBodies::tellFrozen(BodyStorage& bodies) {
+void SharedBodies::tellFrozen(const DealtOut& world) {
+    BodyStorage& bodies = world.bodies;
     std::vector<std::byte> message;
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (kind_[i] != BodyKind::dynamic || bodies.kind[i] != BodyKind::fixed) continue;
-        pack(message, i);
-        packBody(message, bodies, i);
+        pack(message, bodies.homeOf(i));
+        packWhole(message, bodies, i);
     }
     bool any = false;
     for (const auto& told : tellAll(ranks_, message)) {
         for (Unpacker in(told); !in.isAtEnd();) {
-            const auto i = in.get<BodyIndex>();
+            const auto home = in.get<BodyIndex>();
+            addHomes(world, {home});
+            const BodyIndex i = bodies.slotOf(home);
             const bool is_new = bodies.kind[i] == BodyKind::hole;
-            unpackBody(in, bodies, i);
+            unpackWhole(in, bodies, i);
             // Here nothing was found of it yet.
             if (is_new) bodies.detected_position[i] = nowhere();
             kind_[i] = bodies.kind[i] = BodyKind::fixed;
@@ -246,7 +321,7 @@ void SharedBodies::tellFrozen(BodyStorage& bodies) {
 
 NearGroupsInput SharedBodies::groupsInput(const DealtOut& world) const {
     const BodyStorage& bodies = world.bodies;
-    return {bodies.kind, cover_, bodies.position, world.contacts, world.tied};
+    return {bodies.kind, cover_, bodies.position, world.contacts, world.tied, bodies.homes()};
 }
 
 void SharedBodies::findOwners(const DealtOut& world) {
@@ -260,7 +335,7 @@ int SharedBodies::ownerOf(const DealtOut& world, BodyIndex group) const {
     const auto count = static_cast<std::uint64_t>(ranks_.size());
     const auto turn = partition_.restless ? static_cast<std::uint64_t>(world.step) : 0;
     if (partition_.kind == PartitionKind::hash) {
-        return static_cast<int>((mixed(world.bodies.number[group] + 1) + turn) % count);
+        return static_cast<int>((mixed(std::uint64_t{groups_.nameOf(group)} + 1) + turn) % count);
     }
     return static_cast<int>((static_cast<std::uint64_t>(regions_->ownerOf(groups_.middleOf(group))) + turn) % count);
 }
@@ -283,6 +358,17 @@ bool SharedBodies::moveAway(const DealtOut& world, Ranks::Messages& out) {
     const auto own = static_cast<std::uint32_t>(ranks_.rank());
     bool any = false;
     left_.assign(bodies.slots(), 0);
+    std::vector<std::vector<BodyIndex>> leaving(out.size());
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        if (isOwn(bodies, i) && owner_[i] != own) leaving[owner_[i]].push_back(bodies.homeOf(i));
+    }
+    // Who gets bodies first makes room for all of them.
+    for (std::size_t to = 0; to < out.size(); ++to) {
+        if (leaving[to].empty()) continue;
+        pack(out[to], Item::slots);
+        pack(out[to], std::uint64_t{leaving[to].size()});
+        for (const BodyIndex home : leaving[to]) pack(out[to], home);
+    }
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (!isOwn(bodies, i) || owner_[i] == own) continue;
         packResident(out[owner_[i]], world, i);
@@ -293,9 +379,7 @@ bool SharedBodies::moveAway(const DealtOut& world, Ranks::Messages& out) {
     if (!any) return false;
     for (const Contact& contact : world.contacts) {
         const std::uint32_t holder = holderOf(contact);
-        if (holder == no_rank || holder == own) continue;
-        pack(out[holder], Item::contact);
-        packContact(out[holder], contact);
+        if (holder != no_rank && holder != own) packNamed(out[holder], bodies, contact);
     }
     for (std::uint32_t j = 0; j < world.joints.size(); ++j) {
         Joint& joint = world.joints[j];
@@ -315,18 +399,35 @@ bool SharedBodies::moveAway(const DealtOut& world, Ranks::Messages& out) {
     return true;
 }
 
-/// Takes in what others sent.
+/// Makes slots for what others sent.
+void SharedBodies::makeRoom(const DealtOut& world, const Ranks::Messages& in) {
+    std::vector<BodyIndex> homes;
+    for (const auto& message : in) {
+        Unpacker reader(message);
+        if (reader.isAtEnd() || reader.get<Item>() != Item::slots) continue;
+        for (auto left = reader.get<std::uint64_t>(); left > 0; --left) homes.push_back(reader.get<BodyIndex>());
+    }
+    addHomes(world, std::move(homes));
+}
+
+/// Takes in what others sent. @pre there are slots for it
 void SharedBodies::takeIn(const DealtOut& world, const Ranks::Messages& in) {
+    const BodyStorage& bodies = world.bodies;
     came_.clear();
     contacts_.clear();
     for (const auto& message : in) {
         for (Unpacker reader(message); !reader.isAtEnd();) {
             switch (reader.get<Item>()) {
+                case Item::slots:
+                    for (auto left = reader.get<std::uint64_t>(); left > 0; --left) reader.get<BodyIndex>();
+                    break;
                 case Item::body:
                     came_.push_back(unpackResident(reader, world));
                     break;
                 case Item::contact:
                     contacts_.push_back(unpackContact(reader));
+                    contacts_.back().a = bodies.slotOf(contacts_.back().a);
+                    contacts_.back().b = bodies.slotOf(contacts_.back().b);
                     break;
                 case Item::joint: {
                     const auto j = reader.get<std::uint32_t>();
@@ -340,35 +441,56 @@ void SharedBodies::takeIn(const DealtOut& world, const Ranks::Messages& in) {
     std::ranges::stable_sort(contacts_, {}, [](const Contact& contact) { return BodyPair{contact.a, contact.b}; });
 }
 
-bool SharedBodies::moveHouse(const DealtOut& world) {
+void SharedBodies::moveHouse(const DealtOut& world) {
     Ranks::Messages out(static_cast<std::size_t>(ranks_.size()));
     const bool left = moveAway(world, out);
-    takeIn(world, ranks_.exchange(std::move(out)));
-    if (!left && came_.empty()) return false;
+    const Ranks::Messages in = ranks_.exchange(std::move(out));
+    makeRoom(world, in);
+    takeIn(world, in);
+    if (!left && came_.empty()) return;
     world.pairs.change({left_, came_, contacts_}, world.contacts);
+    dropVacant(world, world.bodies.slots() / vacant_part);
     world.bodies.adoptSlots(world.bodies.nextNumber());
-    return true;
+}
+
+/// Appends a body with its shape.
+void SharedBodies::packWhole(std::vector<std::byte>& message, const BodyStorage& bodies, BodyIndex i) const {
+    pack(message, solid_[i]);
+    packBody(message, bodies, i);
+}
+
+void SharedBodies::unpackWhole(Unpacker& in, BodyStorage& bodies, BodyIndex i) {
+    solid_[i] = in.get<std::uint32_t>();
+    if (solid_[i] != no_slot) bodies.shape[i] = solids_[solid_[i]];
+    unpackBody(in, bodies, i);
+}
+
+/// Appends a contact that names its bodies by their homes.
+void SharedBodies::packNamed(std::vector<std::byte>& message, const BodyStorage& bodies, Contact contact) {
+    contact.a = bodies.homeOf(contact.a);
+    contact.b = bodies.homeOf(contact.b);
+    pack(message, Item::contact);
+    packContact(message, contact);
 }
 
 /// Appends a body with what this room and the step remember of it.
 void SharedBodies::packResident(std::vector<std::byte>& message, const DealtOut& world, BodyIndex i) const {
     pack(message, Item::body);
-    pack(message, i);
-    packBody(message, world.bodies, i);
+    pack(message, world.bodies.homeOf(i));
+    packWhole(message, world.bodies, i);
     pack(message, cover_[i].lower);
     pack(message, cover_[i].upper);
-    if (!world.begun.empty()) pack(message, world.begun[i]);
+    if (world.begun != nullptr) pack(message, (*world.begun)[i]);
 }
 
 BodyIndex SharedBodies::unpackResident(Unpacker& in, const DealtOut& world) {
-    const auto i = in.get<BodyIndex>();
-    unpackBody(in, world.bodies, i);
-    world.bodies.kind[i] = BodyKind::dynamic;
+    const BodyIndex i = world.bodies.slotOf(in.get<BodyIndex>());
+    unpackWhole(in, world.bodies, i);
     cover_[i].lower = in.get<Vec3>();
     cover_[i].upper = in.get<Vec3>();
     covered_[i] = 1;
     owner_[i] = static_cast<std::uint32_t>(ranks_.rank());
-    if (!world.begun.empty()) world.begun[i] = in.get<Vec3>();
+    if (world.begun != nullptr) (*world.begun)[i] = in.get<Vec3>();
     return i;
 }
 

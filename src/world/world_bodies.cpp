@@ -262,6 +262,7 @@ std::uint64_t World::layoutVersion() const noexcept {
 }
 
 BodyViews World::bodyViews() const {
+    requireWhole(*state_, "World::bodyViews");
     const BodyStorage& b = state_->bodies;
     const auto view = [&](const auto& field) { return BodyView(field.share(), field.size()); };
     return {.kind = view(b.kind),
@@ -275,6 +276,7 @@ BodyViews World::bodyViews() const {
 }
 
 void World::posesTo(std::vector<Pose>& poses) const {
+    requireWhole(*state_, "World::posesTo");
     const BodyStorage& b = state_->bodies;
     poses.resize(b.slots());
     for (BodyIndex i = 0; i < b.slots(); ++i) poses[i] = b.shapePose(i);

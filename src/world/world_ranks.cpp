@@ -22,7 +22,7 @@ bool World::isOwn(BodyId id) const noexcept {
     if (!contains(id)) return false;
     const SharedBodies* shared = state_->shared.get();
     if (shared == nullptr) return true;
-    return shared->isWhole() ? shared->ranks().rank() == 0 : shared->isTold(state_->bodies, id.index);
+    return shared->isWhole() ? shared->ranks().rank() == 0 : shared->isTold(state_->bodies, state_->bodies.slotOf(id.index));
 }
 
 bool World::isOwn(JointId id) const noexcept {

@@ -90,5 +90,39 @@ TEST(MaterialTable, BadPropertiesAreRefusedWithTheReason) {
     EXPECT_THROW(table.setPair(MaterialId{0}, MaterialId{5}, {}), InputError);
 }
 
+TEST(BodyStorage, OfAPartNamesBodiesAsTheWholeWorldDoes) {
+    BodyStorage bodies;
+    std::vector<BodyId> ids;
+    for (int i = 0; i < 6; ++i) {
+        ids.push_back(bodies.idOf(bodies.allocate(BodyKind::dynamic)));
+        bodies.position[static_cast<std::size_t>(i)].x() = i;
+    }
+    bodies.filter.setPair(1, 4, Touch::never);
+    bodies.beginPart();
+    for (const BodyIndex i : {0, 2, 3, 5}) bodies.kind[i] = BodyKind::hole;
+    const SlotMove dropped = bodies.takeHomes({1, 3, 4});
+    EXPECT_EQ(dropped.from, (std::vector<BodyIndex>{1, 3, 4}));
+    EXPECT_EQ(dropped.to, (std::vector<BodyIndex>{no_slot, 0, no_slot, 1, 2, no_slot}));
+    EXPECT_EQ(bodies.slots(), 3U);
+    EXPECT_EQ(bodies.wholeSlots(), 6U);
+    EXPECT_EQ(bodies.count(), 2U);
+    EXPECT_EQ(bodies.position[2].x(), 4);
+    EXPECT_EQ(bodies.idOf(2), ids[4]);
+    EXPECT_EQ(bodies.indexOf(ids[4]), 2U);
+    EXPECT_EQ(bodies.slotOf(5), no_slot);
+    EXPECT_EQ(bodies.filter.ofPair(0, 2), Touch::never);
+    EXPECT_TRUE(bodies.contains(ids[1]));
+    for (const std::size_t elsewhere : {0, 3, 5}) {
+        EXPECT_FALSE(bodies.contains(ids[elsewhere]));
+        EXPECT_THROW(bodies.indexOf(ids[elsewhere]), StaleIdError);
+    }
+    const SlotMove added = bodies.takeHomes({0, 1, 2, 3, 4, 5});
+    EXPECT_EQ(added.from, (std::vector<BodyIndex>{no_slot, 0, no_slot, 1, 2, no_slot}));
+    EXPECT_EQ(bodies.kind[0], BodyKind::hole);
+    bodies.endPart();
+    EXPECT_EQ(bodies.position[4].x(), 4);
+    EXPECT_EQ(bodies.filter.ofPair(1, 4), Touch::never);
+}
+
 }  // namespace
 }  // namespace cairn

@@ -124,6 +124,24 @@ TEST(SharedWorld, HasBodiesOnOneRankEach) {
     EXPECT_EQ(here, 12);
 }
 
+TEST(SharedWorld, TakesNamesFiltersAndShapesOfAllKindsAlong) {
+    Scene scene = row(6);
+    const ConvexHull wedge({{0, 0, 0}, {0.4, 0, 0}, {0, 0.4, 0}, {0, 0, 0.4}});
+    const Compound dumbbell{{{.shape = Sphere{0.1}, .pose = {{-0.2, 0, 0}, Quat::Identity()}},
+                             {.shape = Sphere{0.15}, .pose = {{0.2, 0, 0}, Quat::Identity()}}}};
+    double x = 0;
+    for (const Shape& shape : {Shape(Box{{0.2, 0.3, 0.4}}), Shape(Capsule{0.1, 0.3}), Shape(Cylinder{0.1, 0.3}),
+                               Shape(wedge), Shape(wedge), Shape(dumbbell), Shape(dumbbell)}) {
+        SceneBody body = ballAt({x += 0.4, 0.1, 0.6});
+        body.shape = shape;
+        body.name = "body at " + std::to_string(x);
+        body.user_data = scene.bodies.size();
+        scene.bodies.push_back(body);
+    }
+    scene.filters.exceptions = {{3, 8, Touch::never}, {7, 12, Touch::never}};
+    for (const Partition& partition : {Partition{}, by_hash, restless}) expectSameSteps(scene, 120, partition);
+}
+
 /// What a user does to a world in the middle of a run.
 void meddle(SceneRun& run) {
     World& world = run.world();
