@@ -47,6 +47,17 @@ void BodyStorage::endPart() {
     homes_ = {};
 }
 
+void BodyStorage::passOver(BodyIndex i) {
+    kind[i] = BodyKind::hole;
+    asleep[i] = 0;
+    --count_;
+    ++layout_version_;
+    // In a slot that another body left before it stays a hole.
+    if (std::size_t{i} + 1 != slots()) return;
+    forEachBodyField([&](const auto& field) { (this->*field.array).resize(i); });
+    homes_.pop_back();
+}
+
 SlotMove BodyStorage::takeHomes(std::vector<BodyIndex> homes) {
     SlotMove move;
     move.from.assign(homes.size(), no_slot);
@@ -77,6 +88,7 @@ BodyIndex BodyStorage::allocate(BodyKind new_kind) {
     BodyIndex i = 0;
     if (holes_.empty()) {
         i = static_cast<BodyIndex>(kind.size());
+        if (is_part_) homes_.push_back(static_cast<BodyIndex>(whole_slots_++));
         forEachBodyField([&](const auto& field) { (this->*field.array).resize(std::size_t{i} + 1); });
     } else {
         std::pop_heap(holes_.begin(), holes_.end(), std::greater<>());

@@ -103,6 +103,8 @@ class BodyStorage : public BodyArrays {
     void beginPart();
     /// @pre there is a slot for every home
     void endPart();
+    /// Leaves the body that was allocated last to another rank, with its number and its home. @pre a part
+    void passOver(BodyIndex i);
     /// Drops slots and adds blank holes. @param homes of the slots there are then, ascending @pre dropped slots are
     /// holes whose bodies no exception of the filter names, and the world is a part
     SlotMove takeHomes(std::vector<BodyIndex> homes);

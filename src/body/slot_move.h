@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "math/arrays.h"
+
 namespace cairn {
 
 /// Stands for no slot.
@@ -20,17 +22,37 @@ struct SlotMove {
     std::uint32_t operator()(std::uint32_t slot) const { return slot < to.size() ? to[slot] : slot; }
 };
 
-/// Brings the entries of an array to where their slots are now. Where it has none of the slots before, it gets none.
-/// @param values may have fewer entries than there were slots @param blank for what had none
+/// Brings the entries of an array to where their slots are now, in its place where that leaves no large part of it
+/// unused. Where it has none of the slots before, it gets none.
+/// @param values may have fewer entries than there were slots @param blank for what had none @pre slots only come, or
+/// only go
 template <class Array>
 void rearrange(Array& values, const SlotMove& move, const typename Array::value_type& blank) {
-    if (values.empty() && !move.to.empty()) return;
-    Array moved;
-    moved.resize(move.from.size());
-    for (std::size_t i = 0; i < move.from.size(); ++i) {
-        moved[i] = move.from[i] < values.size() ? values[move.from[i]] : blank;
+    const std::size_t before = values.size();
+    const std::size_t now = move.from.size();
+    if (before == 0 && !move.to.empty()) return;
+    const auto take = [&](Array& to, std::size_t i) {
+        to[i] = move.from[i] < before ? std::move(values[move.from[i]]) : blank;
+    };
+    if (now >= move.to.size()) {
+        if constexpr (requires { values.capacity(); }) {
+            resizeTightly(values, now);
+        } else {
+            values.resize(now);
+        }
+        // From behind, so that nothing is written over before its turn.
+        for (std::size_t i = now; i-- > 0 && (move.from[i] != i || i >= before);) take(values, i);
+    } else if (now > before / 2) {
+        for (std::size_t i = 0; i < now; ++i) {
+            if (move.from[i] != i || i >= before) take(values, i);
+        }
+        values.resize(now);
+    } else {
+        Array moved;
+        moved.resize(now);
+        for (std::size_t i = 0; i < now; ++i) take(moved, i);
+        values = std::move(moved);
     }
-    values = std::move(moved);
 }
 
 }  // namespace cairn

@@ -86,9 +86,8 @@ void forChangingMembers(AnyJoint& joint, const Visit& visit) {
 
 bool isSent(const Shape& shape) {
     bool sent = false;
-    forSentKinds([&](const auto& solid) {
-        sent = sent || std::holds_alternative<std::remove_cvref_t<decltype(solid)>>(shape);
-    });
+    forSentKinds(
+        [&](const auto& solid) { sent = sent || std::holds_alternative<std::remove_cvref_t<decltype(solid)>>(shape); });
     return sent;
 }
 
@@ -120,6 +119,11 @@ Contact unpackContact(Unpacker& in) {
 
 void packJoint(std::vector<std::byte>& message, const Joint& joint) {
     forChangingMembers(joint, [&](const auto& member) { pack(message, member); });
+}
+
+void forgetLoad(Joint& joint) {
+    joint.impulse.setZero();
+    joint.angular_impulse.setZero();
 }
 
 void unpackJoint(Unpacker& in, Joint& joint) {

@@ -28,5 +28,7 @@ Contact unpackContact(Unpacker& in);
 void packJoint(std::vector<std::byte>& message, const Joint& joint);
 /// Reads the same into the joint.
 void unpackJoint(Unpacker& in, Joint& joint);
+/// A joint that is on another rank must not break here by what it bore.
+void forgetLoad(Joint& joint);
 
 }  // namespace cairn

@@ -43,7 +43,7 @@ void NearGroups::find(const NearGroupsInput& input, const Executor& executor) {
 bool NearGroups::meetOthers(const NearGroupsInput& input, const Executor& executor, Ranks& ranks) {
     begin(input);
     tellCovers(input, ranks);
-    search_.findPairs({.kind = kind_, .bounds = cover_, .still = others_}, executor, pairs_);
+    input.search.findPairs({.kind = kind_, .bounds = cover_, .still = others_}, executor, pairs_);
     const bool meets =
         std::ranges::any_of(pairs_, [&](const BodyPair& pair) { return (others_[pair.a] | others_[pair.b]) != 0; });
     const std::vector<std::uint8_t> all = gatherAll(ranks, static_cast<std::uint8_t>(meets ? 1 : 0));
@@ -121,7 +121,7 @@ void NearGroups::tellCovers(const NearGroupsInput& input, Ranks& ranks) {
 
 /// Joins what is near on this rank, and notes the pairs with bodies of other ranks.
 void NearGroups::connect(const NearGroupsInput& input, const Executor& executor) {
-    search_.findPairs({.kind = kind_, .bounds = cover_, .still = others_}, executor, pairs_);
+    input.search.findPairs({.kind = kind_, .bounds = cover_, .still = others_}, executor, pairs_);
     across_.clear();
     near_others_.clear();
     for (const BodyPair& pair : pairs_) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "body/contact.h"
-#include "broad_phase/hash_grids.h"
+#include "broad_phase/broad_phase.h"
 #include "cairn/ranks.h"
 
 namespace cairn {
@@ -19,6 +19,7 @@ struct NearGroupsInput {
     std::span<const Vec3> position;     ///< of the same [m, W]
     std::span<const Contact> contacts;  ///< of the last step; two bodies that touched stay in one group
     std::span<const BodyPair> tied;     ///< bodies that belong together, wherever they are
+    BroadPhase& search;                 ///< that has time now: it is used here
     /// Which slot of the whole world each stands for, ascending: what ranks call the body; empty = the same.
     std::span<const BodyIndex> home{};
 };
@@ -54,7 +55,6 @@ class NearGroups {
     void join(BodyIndex a, BodyIndex b);
 
     // Bodies of other ranks that have no slot here stand behind the slots.
-    HashGrids search_;
     std::vector<BodyIndex> home_;       ///< [entries]
     std::vector<BodyIndex> parent_;     ///< [entries]
     std::vector<BodyKind> kind_;        ///< [entries] dynamic for those that are searched

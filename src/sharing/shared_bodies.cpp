@@ -1,8 +1,6 @@
 #include "sharing/shared_bodies.h"
 
 #include <algorithm>
-#include <iterator>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 #include <variant>
@@ -23,15 +21,6 @@ constexpr double time_ahead = 1.0 / 60;
 
 /// Time steps after which bodies that went into the region of another rank and met nobody go there.
 constexpr std::int64_t home_every = 30;
-
-/// Slots of bodies that went elsewhere, and may come back, are dropped when they are more than one in so many.
-constexpr std::size_t vacant_part = 8;
-
-/// Stands for no rank.
-constexpr std::uint32_t no_rank = UINT32_MAX;
-
-/// What follows in a message to another rank.
-enum class Item : std::uint8_t { slots, body, contact, joint };
 
 /// What a rank asks of the others at the beginning of a step …
 enum Wish : std::uint8_t { nothing = 0, groups_anew = 1, tell_frozen = 2 };
@@ -54,19 +43,42 @@ std::uint64_t mixed(std::uint64_t x) {
     return x ^ (x >> 31U);
 }
 
-/// A joint that is on another rank must not break here by what it bore.
-void forgetLoad(Joint& joint) {
-    joint.impulse.setZero();
-    joint.angular_impulse.setZero();
-}
-
 }  // namespace
 
 SharedBodies::SharedBodies(Ranks& ranks, const Partition& partition) : ranks_(ranks), partition_(partition) {
     requirePartition(partition, ranks.size());
 }
 
+void SharedBodies::deal(BodyStorage& bodies, std::vector<Vec3> places) {
+    regions_.emplace(partition_, ranks_.size(), std::move(places));
+    bodies.beginPart();
+    whole_ = false;
+    is_dealing_ = true;
+}
+
+void SharedBodies::dealOut(BodyStorage& bodies, BodyIndex i, const Vec3& place) {
+    const BodyKind kind = bodies.kind[i];
+    const bool is_own = kind != BodyKind::dynamic || ownerOf(bodies.homeOf(i), place, 0) == ranks_.rank();
+    if (!is_own) bodies.passOver(i);
+    kind_.resize(bodies.slots(), BodyKind::hole);
+    if (i < kind_.size()) kind_[i] = kind;
+}
+
+/// From now on the bodies are those of any divided world.
+void SharedBodies::endDealing(const DealtOut& world) {
+    const std::size_t slots = world.bodies.slots();
+    is_dealing_ = false;
+    // What joints and the like name was fixed, and is on all ranks.
+    stays_.assign(slots, 0);
+    solid_.assign(slots, no_slot);
+    cover_.resize(slots);
+    covered_.assign(slots, 0);
+    owner_.assign(slots, static_cast<std::uint32_t>(ranks_.rank()));
+    left_.assign(slots, 0);
+}
+
 void SharedBodies::settle(const DealtOut& world) {
+    if (is_dealing_) endDealing(world);
     if (whole_) {
         divide(world);
         return;
@@ -96,7 +108,6 @@ void SharedBodies::divide(const DealtOut& world) {
     cover_.resize(bodies.slots());
     covered_.assign(bodies.slots(), 0);
     owner_.resize(bodies.slots());
-    ahead_.resize(bodies.slots());
     fastest_ = world.fastest;
     coverSpeed();
     coverAll(world);
@@ -142,73 +153,6 @@ void SharedBodies::listSolids(const BodyStorage& bodies) {
         if (is_new) solids_.push_back(bodies.shape[i]);
         solid_[i] = place->second;
     }
-}
-
-/// Brings the bodies, and all that has an entry of each, into slots with other homes.
-void SharedBodies::takeHomes(const DealtOut& world, std::vector<BodyIndex> homes) {
-    const SlotMove move = world.bodies.takeHomes(std::move(homes));
-    // A new slot is for a body that another rank has.
-    rearrange(kind_, move, BodyKind::dynamic);
-    rearrange(stays_, move, 0);
-    rearrange(solid_, move, no_slot);
-    rearrange(cover_, move, {});
-    rearrange(covered_, move, 0);
-    rearrange(owner_, move, no_rank);
-    rearrange(ahead_, move, {});
-    rearrange(left_, move, 0);
-    world.rearrange(move);
-}
-
-/// Makes slots for the bodies that have none. @param homes in any order
-void SharedBodies::addHomes(const DealtOut& world, std::vector<BodyIndex> homes) {
-    const BodyStorage& bodies = world.bodies;
-    std::erase_if(homes, [&](BodyIndex home) { return bodies.slotOf(home) != no_slot; });
-    if (homes.empty()) return;
-    std::ranges::sort(homes);
-    homes.erase(std::unique(homes.begin(), homes.end()), homes.end());
-    std::vector<BodyIndex> all;
-    all.reserve(homes.size() + bodies.slots());
-    std::ranges::merge(homes, bodies.homes(), std::back_inserter(all));
-    takeHomes(world, std::move(all));
-}
-
-/// Drops the slots of bodies that are elsewhere, where they are more than so many. @pre no contact or pair is of them
-void SharedBodies::dropVacant(const DealtOut& world, std::size_t most) {
-    const BodyStorage& bodies = world.bodies;
-    std::vector<BodyIndex> homes;
-    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (!isVacant(bodies, i)) homes.push_back(bodies.homeOf(i));
-    }
-    if (bodies.slots() - homes.size() > most) takeHomes(world, std::move(homes));
-}
-
-void SharedBodies::gather(const DealtOut& world) {
-    if (whole_) return;
-    BodyStorage& bodies = world.bodies;
-    tellFrozen(world);
-    std::vector<std::byte> message;
-    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (isOwn(bodies, i)) packResident(message, world, i);
-    }
-    for (const Contact& contact : world.contacts) packNamed(message, bodies, contact);
-    for (std::uint32_t j = 0; j < world.joints.size(); ++j) {
-        const BodyIndex end = endOf(world.joints[j]);
-        if (end == Joint::world || !isOwn(bodies, end)) continue;
-        pack(message, Item::joint);
-        pack(message, j);
-        packJoint(message, world.joints[j]);
-    }
-    Ranks::Messages told = tellAll(ranks_, message);
-    told[static_cast<std::size_t>(ranks_.rank())].clear();
-    std::vector<BodyIndex> all(bodies.wholeSlots());
-    std::iota(all.begin(), all.end(), 0U);
-    addHomes(world, std::move(all));
-    left_.assign(bodies.slots(), 0);
-    takeIn(world, told);
-    world.pairs.change({left_, came_, contacts_}, world.contacts);
-    bodies.endPart();
-    bodies.adoptSlots(bodies.nextNumber());
-    whole_ = true;
 }
 
 bool SharedBodies::goHome(std::int64_t step) const {
@@ -266,10 +210,11 @@ void SharedBodies::cut(const DealtOut& world) {
 }
 
 /// Where a detection searches a body, and where it may be followed to if it is struck.
-Bounds SharedBodies::reachOf(const DealtOut& world, BodyIndex i) {
-    Bounds reach = searchedBounds(world.bodies, world.range, i, ahead_[i]);
+Bounds SharedBodies::reachOf(const DealtOut& world, BodyIndex i) const {
+    BodyAhead ahead;
+    Bounds reach = searchedBounds(world.bodies, world.range, i, ahead);
     if (world.range.foresight.time == 0) return reach;
-    const Bounds struck = ahead_[i].now.grown(covered_speed_ * world.range.foresight.time);
+    const Bounds struck = ahead.now.grown(covered_speed_ * world.range.foresight.time);
     reach.lower = reach.lower.cwiseMin(struck.lower);
     reach.upper = reach.upper.cwiseMax(struck.upper);
     return reach;
@@ -321,23 +266,26 @@ void SharedBodies::tellFrozen(const DealtOut& world) {
 
 NearGroupsInput SharedBodies::groupsInput(const DealtOut& world) const {
     const BodyStorage& bodies = world.bodies;
-    return {bodies.kind, cover_, bodies.position, world.contacts, world.tied, bodies.homes()};
+    return {bodies.kind, cover_, bodies.position, world.contacts, world.tied, world.search, bodies.homes()};
 }
 
 void SharedBodies::findOwners(const DealtOut& world) {
     for (BodyIndex i = 0; i < world.bodies.slots(); ++i) {
-        if (isOwn(world.bodies, i)) owner_[i] = static_cast<std::uint32_t>(ownerOf(world, groups_.groupOf(i)));
+        if (!isOwn(world.bodies, i)) continue;
+        const BodyIndex group = groups_.groupOf(i);
+        owner_[i] = static_cast<std::uint32_t>(ownerOf(groups_.nameOf(group), groups_.middleOf(group), world.step));
     }
 }
 
 /// The rank that a group belongs to; all ranks that have a part of it tell the same.
-int SharedBodies::ownerOf(const DealtOut& world, BodyIndex group) const {
+/// @param name of the group @param place of its middle [m, W]
+int SharedBodies::ownerOf(BodyIndex name, const Vec3& place, std::int64_t step) const {
     const auto count = static_cast<std::uint64_t>(ranks_.size());
-    const auto turn = partition_.restless ? static_cast<std::uint64_t>(world.step) : 0;
+    const auto turn = partition_.restless ? static_cast<std::uint64_t>(step) : 0;
     if (partition_.kind == PartitionKind::hash) {
-        return static_cast<int>((mixed(std::uint64_t{groups_.nameOf(group)} + 1) + turn) % count);
+        return static_cast<int>((mixed(std::uint64_t{name} + 1) + turn) % count);
     }
-    return static_cast<int>((static_cast<std::uint64_t>(regions_->ownerOf(groups_.middleOf(group))) + turn) % count);
+    return static_cast<int>((static_cast<std::uint64_t>(regions_->ownerOf(place)) + turn) % count);
 }
 
 /// The rank that has or gets a contact of own bodies: that of its bodies that can move.
@@ -350,155 +298,6 @@ std::uint32_t SharedBodies::holderOf(const Contact& contact) const {
 BodyIndex SharedBodies::endOf(const Joint& joint) const {
     if (isMovable(kind_, joint.a)) return joint.a;
     return isMovable(kind_, joint.b) ? joint.b : Joint::world;
-}
-
-/// Takes the bodies that belong elsewhere out of this world. @param out gets them @return whether there are any
-bool SharedBodies::moveAway(const DealtOut& world, Ranks::Messages& out) {
-    BodyStorage& bodies = world.bodies;
-    const auto own = static_cast<std::uint32_t>(ranks_.rank());
-    bool any = false;
-    left_.assign(bodies.slots(), 0);
-    std::vector<std::vector<BodyIndex>> leaving(out.size());
-    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (isOwn(bodies, i) && owner_[i] != own) leaving[owner_[i]].push_back(bodies.homeOf(i));
-    }
-    // Who gets bodies first makes room for all of them.
-    for (std::size_t to = 0; to < out.size(); ++to) {
-        if (leaving[to].empty()) continue;
-        pack(out[to], Item::slots);
-        pack(out[to], std::uint64_t{leaving[to].size()});
-        for (const BodyIndex home : leaving[to]) pack(out[to], home);
-    }
-    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (!isOwn(bodies, i) || owner_[i] == own) continue;
-        packResident(out[owner_[i]], world, i);
-        leave(bodies, i);
-        left_[i] = 1;
-        any = true;
-    }
-    if (!any) return false;
-    for (const Contact& contact : world.contacts) {
-        const std::uint32_t holder = holderOf(contact);
-        if (holder != no_rank && holder != own) packNamed(out[holder], bodies, contact);
-    }
-    for (std::uint32_t j = 0; j < world.joints.size(); ++j) {
-        Joint& joint = world.joints[j];
-        const auto sendWith = [&](BodyIndex end) {
-            pack(out[owner_[end]], Item::joint);
-            pack(out[owner_[end]], j);
-            packJoint(out[owner_[end]], joint);
-        };
-        const bool with_a = isMovable(kind_, joint.a) && left_[joint.a] != 0;
-        const bool with_b = isMovable(kind_, joint.b) && left_[joint.b] != 0;
-        if (!with_a && !with_b) continue;
-        if (with_a) sendWith(joint.a);
-        // The ends of a joint that broke need not go together; both must know.
-        if (with_b && !(with_a && owner_[joint.a] == owner_[joint.b])) sendWith(joint.b);
-        forgetLoad(joint);
-    }
-    return true;
-}
-
-/// Makes slots for what others sent.
-void SharedBodies::makeRoom(const DealtOut& world, const Ranks::Messages& in) {
-    std::vector<BodyIndex> homes;
-    for (const auto& message : in) {
-        Unpacker reader(message);
-        if (reader.isAtEnd() || reader.get<Item>() != Item::slots) continue;
-        for (auto left = reader.get<std::uint64_t>(); left > 0; --left) homes.push_back(reader.get<BodyIndex>());
-    }
-    addHomes(world, std::move(homes));
-}
-
-/// Takes in what others sent. @pre there are slots for it
-void SharedBodies::takeIn(const DealtOut& world, const Ranks::Messages& in) {
-    const BodyStorage& bodies = world.bodies;
-    came_.clear();
-    contacts_.clear();
-    for (const auto& message : in) {
-        for (Unpacker reader(message); !reader.isAtEnd();) {
-            switch (reader.get<Item>()) {
-                case Item::slots:
-                    for (auto left = reader.get<std::uint64_t>(); left > 0; --left) reader.get<BodyIndex>();
-                    break;
-                case Item::body:
-                    came_.push_back(unpackResident(reader, world));
-                    break;
-                case Item::contact:
-                    contacts_.push_back(unpackContact(reader));
-                    contacts_.back().a = bodies.slotOf(contacts_.back().a);
-                    contacts_.back().b = bodies.slotOf(contacts_.back().b);
-                    break;
-                case Item::joint: {
-                    const auto j = reader.get<std::uint32_t>();
-                    unpackJoint(reader, world.joints[j]);
-                    break;
-                }
-            }
-        }
-    }
-    // Those of a pair all come from one rank, in their order.
-    std::ranges::stable_sort(contacts_, {}, [](const Contact& contact) { return BodyPair{contact.a, contact.b}; });
-}
-
-void SharedBodies::moveHouse(const DealtOut& world) {
-    Ranks::Messages out(static_cast<std::size_t>(ranks_.size()));
-    const bool left = moveAway(world, out);
-    const Ranks::Messages in = ranks_.exchange(std::move(out));
-    makeRoom(world, in);
-    takeIn(world, in);
-    if (!left && came_.empty()) return;
-    world.pairs.change({left_, came_, contacts_}, world.contacts);
-    dropVacant(world, world.bodies.slots() / vacant_part);
-    world.bodies.adoptSlots(world.bodies.nextNumber());
-}
-
-/// Appends a body with its shape.
-void SharedBodies::packWhole(std::vector<std::byte>& message, const BodyStorage& bodies, BodyIndex i) const {
-    pack(message, solid_[i]);
-    packBody(message, bodies, i);
-}
-
-void SharedBodies::unpackWhole(Unpacker& in, BodyStorage& bodies, BodyIndex i) {
-    solid_[i] = in.get<std::uint32_t>();
-    if (solid_[i] != no_slot) bodies.shape[i] = solids_[solid_[i]];
-    unpackBody(in, bodies, i);
-}
-
-/// Appends a contact that names its bodies by their homes.
-void SharedBodies::packNamed(std::vector<std::byte>& message, const BodyStorage& bodies, Contact contact) {
-    contact.a = bodies.homeOf(contact.a);
-    contact.b = bodies.homeOf(contact.b);
-    pack(message, Item::contact);
-    packContact(message, contact);
-}
-
-/// Appends a body with what this room and the step remember of it.
-void SharedBodies::packResident(std::vector<std::byte>& message, const DealtOut& world, BodyIndex i) const {
-    pack(message, Item::body);
-    pack(message, world.bodies.homeOf(i));
-    packWhole(message, world.bodies, i);
-    pack(message, cover_[i].lower);
-    pack(message, cover_[i].upper);
-    if (world.begun != nullptr) pack(message, (*world.begun)[i]);
-}
-
-BodyIndex SharedBodies::unpackResident(Unpacker& in, const DealtOut& world) {
-    const BodyIndex i = world.bodies.slotOf(in.get<BodyIndex>());
-    unpackWhole(in, world.bodies, i);
-    cover_[i].lower = in.get<Vec3>();
-    cover_[i].upper = in.get<Vec3>();
-    covered_[i] = 1;
-    owner_[i] = static_cast<std::uint32_t>(ranks_.rank());
-    if (world.begun != nullptr) (*world.begun)[i] = in.get<Vec3>();
-    return i;
-}
-
-/// Leaves a slot to the rank that has its body.
-void SharedBodies::leave(BodyStorage& bodies, BodyIndex i) const {
-    bodies.kind[i] = BodyKind::hole;
-    bodies.asleep[i] = 0;
-    bodies.woken[i] = WakeReason::none;
 }
 
 }  // namespace cairn

@@ -29,9 +29,10 @@ struct DealtOut {
     std::span<const BodyIndex> named;  ///< bodies that keep a slot on all ranks, since lasting things name them
     std::vector<Vec3>* begun;          ///< [slots] positions at the beginning of the step, or null [m, W]
     std::vector<BodyPair>& tied;       ///< bodies that belong together, wherever they are
-    const DetectionRange& range;     ///< of the detection that follows
-    double fastest;                  ///< of the bodies here: a struck one is looked ahead for so far [m/s]
-    std::int64_t step;               ///< number of the time step
+    BroadPhase& search;                ///< of the detection that follows
+    const DetectionRange& range;       ///< likewise
+    double fastest;                    ///< of the bodies here: a struck one is looked ahead for so far [m/s]
+    std::int64_t step;                 ///< number of the time step
     const Executor& executor;
     /// Called after the bodies were brought into other slots, for all else that names slots or has an entry of each.
     std::function<void(const SlotMove&)> rearrange;
@@ -74,6 +75,14 @@ class SharedBodies {
         return endOf(joint) == Joint::world ? ranks_.rank() == 0 : hasJoint(bodies, joint);
     }
 
+    /// Divides a world that has no bodies yet: those that are added until the next settle() are dealt out.
+    /// @param places where they will be [m, W], the same on all ranks
+    void deal(BodyStorage& bodies, std::vector<Vec3> places);
+    /// Whether bodies are being dealt out.
+    bool isDealing() const { return is_dealing_; }
+    /// Leaves a body that was just added on all ranks to one of them, if it can move. @param place of it [m, W]
+    void dealOut(BodyStorage& bodies, BodyIndex i, const Vec3& place);
+
     /// Brings the bodies to where they belong, before a detection. If the world is whole it is divided afterwards.
     /// The layout of the bodies changes if any left or came.
     void settle(const DealtOut& world);
@@ -81,11 +90,15 @@ class SharedBodies {
     void gather(const DealtOut& world);
 
   private:
+    /// Stands for no rank.
+    static constexpr std::uint32_t no_rank = UINT32_MAX;
+
+    void endDealing(const DealtOut& world);
     void divide(const DealtOut& world);
     void moveHouse(const DealtOut& world);
     bool isDue(const DealtOut& world);
     void coverSpeed();
-    Bounds reachOf(const DealtOut& world, BodyIndex i);
+    Bounds reachOf(const DealtOut& world, BodyIndex i) const;
     void coverAll(const DealtOut& world);
     void cut(const DealtOut& world);
     void tellFrozen(const DealtOut& world);
@@ -105,7 +118,7 @@ class SharedBodies {
     NearGroupsInput groupsInput(const DealtOut& world) const;
     bool mayHaveLeft(const BodyStorage& bodies, BodyIndex i) const;
     void findOwners(const DealtOut& world);
-    int ownerOf(const DealtOut& world, BodyIndex group) const;
+    int ownerOf(BodyIndex name, const Vec3& place, std::int64_t step) const;
     bool moveAway(const DealtOut& world, Ranks::Messages& out);
     void makeRoom(const DealtOut& world, const Ranks::Messages& in);
     void takeIn(const DealtOut& world, const Ranks::Messages& in);
@@ -121,6 +134,7 @@ class SharedBodies {
     Ranks& ranks_;
     Partition partition_;
     bool whole_ = true;
+    bool is_dealing_ = false;
     std::vector<BodyKind> kind_;         ///< [slots] of all bodies, wherever they are
     std::vector<std::uint8_t> stays_;    ///< [slots] 1 = is named, and so has a slot on all ranks
     std::vector<std::uint32_t> solid_;   ///< [slots] index of the shape in solids_; no_slot = it is sent with the body
@@ -131,7 +145,6 @@ class SharedBodies {
     double fastest_ = 0;                 ///< [m/s]
     double covered_speed_ = 0;           ///< that covers are for: nobody is followed out of them [m/s]
     std::vector<std::uint32_t> owner_;   ///< [slots] of own bodies: where they go
-    std::vector<BodyAhead> ahead_;       ///< [slots] kept memory
     std::vector<std::uint8_t> left_;     ///< [slots] 1 = went to another rank in this step
     std::vector<BodyIndex> came_;        ///< in this step
     std::vector<Contact> contacts_;      ///< of those, sorted by (a, b)

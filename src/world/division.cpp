@@ -96,6 +96,7 @@ DealtOut dealtOut(WorldState& world, std::vector<BodyPair>& tied, const Detectio
             .named = {},
             .begun = nullptr,
             .tied = tied,
+            .search = world.broad_phase,
             .range = range,
             .fastest = data.fastest,
             .step = world.steps,
@@ -192,10 +193,16 @@ void gatherShared(WorldState& world) {
     StepData& data = world.data;
     std::vector<BodyPair> tied;
     const DetectionRange range;
+    const bool was_dealing = isDealing(world);
     world.shared->gather(dealtOut(world, tied, range));
-    data.generation.assign(world.bodies.generation.begin(), world.bodies.generation.end());
-    gatherReports(world);
-    uniteReports(world);
+    if (was_dealing) {
+        // No step was made yet.
+        world.dealt_extents = {};
+    } else {
+        data.generation.assign(world.bodies.generation.begin(), world.bodies.generation.end());
+        gatherReports(world);
+        uniteReports(world);
+    }
     world.lasting.reset();
     ++world.places_version;
 }
@@ -205,6 +212,17 @@ void unite(WorldState& world) {
     std::ranges::stable_sort(world.data.contacts, {}, [](const Contact& c) { return BodyPair{c.a, c.b}; });
     uniteReports(world);
     world.data.pairs.adopt(world.data.contacts);
+}
+
+bool isDealing(const WorldState& world) {
+    return world.shared != nullptr && world.shared->isDealing();
+}
+
+bool isSoOnAny(const WorldState& world, bool is_so_here) {
+    if (world.shared == nullptr || world.shared->isWhole()) return is_so_here;
+    const std::vector<std::uint8_t> all =
+        gatherAll(world.shared->ranks(), static_cast<std::uint8_t>(is_so_here ? 1 : 0));
+    return std::ranges::find(all, 1) != all.end();
 }
 
 void requireWhole(const WorldState& world, std::string_view call) {

@@ -145,7 +145,8 @@ BodyTrace World::trace(BodyId id) const {
     if (i < data.pairs.bounds().size()) {
         trace.bounds_lower = data.pairs.bounds()[i].lower;
         trace.bounds_upper = data.pairs.bounds()[i].upper;
-        trace.level = state_->broad_phase.level(i);
+        // Ranks search otherwise between the steps' own searches.
+        if (state_->shared == nullptr) trace.level = state_->broad_phase.level(i);
     }
     if (i < state_->trace.correction.size()) trace.correction = state_->trace.correction[i];
     if (i < state_->trace.shock_stage.size()) trace.shock_stage = state_->trace.shock_stage[i];

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "body/material_table.h"
 
 namespace cairn {
@@ -88,6 +92,30 @@ TEST(MaterialTable, BadPropertiesAreRefusedWithTheReason) {
     EXPECT_THROW(table.setDefault({.restitution = 0, .static_friction = 0.2, .kinetic_friction = 0.3}), InputError);
     EXPECT_THROW(table.setDefault({.static_friction = -1, .kinetic_friction = -1}), InputError);
     EXPECT_THROW(table.setPair(MaterialId{0}, MaterialId{5}, {}), InputError);
+}
+
+/// Entries of slots that came and went.
+std::vector<std::string> rearranged(std::vector<std::string> values, const SlotMove& move) {
+    FieldArray<std::string> field;
+    field.assign(values.begin(), values.end());
+    rearrange(values, move, "new");
+    rearrange(field, move, "new");
+    EXPECT_TRUE(std::ranges::equal(values, field));
+    return values;
+}
+
+TEST(SlotMove, BringsEntriesToWhereTheirSlotsAre) {
+    using Texts = std::vector<std::string>;
+    const SlotMove come{{0, no_slot, 1, 2, no_slot, 3}, {0, 2, 3, 5}};
+    EXPECT_EQ(rearranged({"a", "b", "c", "d"}, come), (Texts{"a", "new", "b", "c", "new", "d"}));
+    EXPECT_EQ(rearranged({"a", "b"}, come), (Texts{"a", "new", "b", "new", "new", "new"})) << "of slots that are newer";
+    EXPECT_EQ(rearranged({}, come), Texts{}) << "an array that is not used";
+    EXPECT_EQ(rearranged({}, {{no_slot, no_slot}, {}}), (Texts{"new", "new"}));
+    EXPECT_EQ(rearranged({"a", "b", "c", "d"}, {{0, 2, 3}, {0, no_slot, 1, 2}}), (Texts{"a", "c", "d"}));
+    EXPECT_EQ(rearranged({"a", "b", "c", "d"}, {{3}, {no_slot, no_slot, no_slot, 0}}), Texts{"d"});
+    EXPECT_EQ(rearranged({"a", "b", "c"}, {{0, 2, 3}, {0, no_slot, 1, 2}}), (Texts{"a", "c", "new"}));
+    EXPECT_EQ(come(3), 5U);
+    EXPECT_EQ(come(UINT32_MAX), UINT32_MAX);
 }
 
 TEST(BodyStorage, OfAPartNamesBodiesAsTheWholeWorldDoes) {
