@@ -87,14 +87,12 @@ RanksWish parse(const RanksOptions& options) {
 }
 
 /// Prepares the run of one rank; what is wrong with it is wrong on all ranks, and the first one tells.
-int runShared(Ranks& ranks, const RanksWish& wish, const OutputOptions& outputs,
-              const std::function<PreparedRun()>& prepare) {
+int runShared(Ranks& ranks, const RanksWish& wish, const OutputOptions& outputs, const Prepare& prepare) {
     if (wish.patience > 0) ranks.setPatience(wish.patience);
     std::optional<PreparedRun> prepared;
     std::optional<std::string> wrong;
     try {
-        prepared.emplace(prepare());
-        prepared->run.world().share(ranks, wish.partition);
+        prepared.emplace(prepare(&ranks, wish.partition));
     } catch (const InputError& error) {
         wrong = error.what();
     }
@@ -106,7 +104,7 @@ int runShared(Ranks& ranks, const RanksWish& wish, const OutputOptions& outputs,
 }
 
 /// Runs as one of the programs that mpirun started. An error that the others do not know of ends them all.
-int runByMpi(const RanksWish& wish, const OutputOptions& outputs, const std::function<PreparedRun()>& prepare) {
+int runByMpi(const RanksWish& wish, const OutputOptions& outputs, const Prepare& prepare) {
     const std::unique_ptr<Ranks> ranks = mpiRanks();
     const auto tell = [&](const std::string& problem, int exit_code) {
         if (ranks->rank() == 0) printError(problem);
@@ -159,7 +157,7 @@ void addRanksOptions(CLI::App& command, RanksOptions& options) {
         ->type_name("SECONDS");
 }
 
-int runOnRanks(const RanksOptions& options, const OutputOptions& outputs, const std::function<PreparedRun()>& prepare) {
+int runOnRanks(const RanksOptions& options, const OutputOptions& outputs, const Prepare& prepare) {
     const RanksWish wish = parse(options);
     if (isStartedByMpi()) return runByMpi(wish, outputs, prepare);
     if (wish.count == 0) {
@@ -168,7 +166,7 @@ int runOnRanks(const RanksOptions& options, const OutputOptions& outputs, const 
                                           std::pair(!options.delay.empty(), "--message-delay")}) {
             if (given) throw InputError(fmt::format("{} needs --ranks, or mpirun", name));
         }
-        PreparedRun prepared = prepare();
+        PreparedRun prepared = prepare(nullptr, wish.partition);
         return runToTheEnd(std::move(prepared.run), outputs, prepared.usual_checkpoint);
     }
     int exit_code = run_failed;

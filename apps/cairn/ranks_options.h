@@ -28,9 +28,12 @@ struct PreparedRun {
     std::filesystem::path usual_checkpoint;
 };
 
+/// Makes a run that ranks share, with its world cut in this way; by a rank alone if there are none (null).
+using Prepare = std::function<PreparedRun(Ranks* ranks, const Partition& partition)>;
+
 /// Prepares a run and simulates it to its end: on the ranks that mpirun started, on as many threads as --ranks says,
 /// or without other ranks. @param prepare called once for every rank, with the same result @return the exit code
 /// @throws InputError, IoError before it begins
-int runOnRanks(const RanksOptions& options, const OutputOptions& outputs, const std::function<PreparedRun()>& prepare);
+int runOnRanks(const RanksOptions& options, const OutputOptions& outputs, const Prepare& prepare);
 
 }  // namespace cairn::cli

@@ -48,9 +48,12 @@ void addResume(CLI::App& app, int& exit_code) {
     addOutputOptions(*command, options->outputs);
     addRanksOptions(*command, options->ranks);
     command->callback([options, &exit_code] {
-        exit_code = runOnRanks(options->ranks, options->outputs, [&]() -> PreparedRun {
-            return {runFrom(*options), options->file};
-        });
+        const auto prepare = [&](Ranks* ranks, const Partition& partition) -> PreparedRun {
+            SceneRun run = runFrom(*options);
+            if (ranks != nullptr) run.world().share(*ranks, partition);
+            return {std::move(run), options->file};
+        };
+        exit_code = runOnRanks(options->ranks, options->outputs, prepare);
     });
 }
 

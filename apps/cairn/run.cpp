@@ -26,12 +26,13 @@ Scene sceneFrom(const RunOptions& options) {
 }
 
 int runScene(const RunOptions& options) {
-    return runOnRanks(options.ranks, options.outputs, [&]() -> PreparedRun {
+    return runOnRanks(options.ranks, options.outputs, [&](Ranks* ranks, const Partition& partition) -> PreparedRun {
         Scene scene = sceneFrom(options);
         const Settings settings = settingsFor(scene, overridesFrom(options.overrides, scene));
         refuseSameFiles(options.outputs, isBuiltInScene(options.scene) ? "" : options.scene);
         std::filesystem::path checkpoint = usualCheckpointFile(scene.name);
-        return {SceneRun(std::move(scene), settings), std::move(checkpoint)};
+        if (ranks == nullptr) return {SceneRun(std::move(scene), settings), std::move(checkpoint)};
+        return {SceneRun(std::move(scene), settings, *ranks, partition), std::move(checkpoint)};
     });
 }
 

@@ -210,6 +210,11 @@ class SceneRun {
   public:
     /// @throws InputError
     SceneRun(Scene scene, const Settings& settings);
+    /// The same on ranks that share the world from the start, so that not even at the beginning one of them has all
+    /// bodies, where the scene allows it (World::share() with places): it has neither springs nor joints, drives,
+    /// exceptions of pairs, nor a frame that moves, and what moves in it are balls, boxes, capsules and cylinders
+    /// without locks. Other worlds are divided by the first step. @param ranks must outlive the run @throws InputError
+    SceneRun(Scene scene, const Settings& settings, Ranks& ranks, const Partition& partition = {});
 
     World& world() { return world_; }              ///< may be changed between steps
     const World& world() const { return world_; }  ///< as it is after the last step
@@ -242,6 +247,7 @@ class SceneRun {
     static SceneRun restoreParts(std::span<const SavedPart> parts);
 
   private:
+    SceneRun(Scene scene, const Settings& settings, Ranks* ranks, const Partition& partition);
     SceneRun(Scene scene, World world, std::vector<BodyId> ids, std::size_t next_event);
     void apply(const EventAction& action);
     void takeDrives();

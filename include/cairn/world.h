@@ -256,12 +256,14 @@ class World {
     std::optional<Motion> frameMotion() const;  ///< none = it rests
 
     // --- many bodies at once: at the cost of a loop over arrays, with the checks and wakings of the calls above ---
-    /// The state of all bodies, without a copy; it follows the world until layoutVersion() changes.
+    /// The state of all bodies, without a copy; it follows the world until layoutVersion() changes. @throws InputError
+    /// if the world is divided among ranks: gather() first
     BodyViews bodyViews() const;
     /// Another number as soon as bodies were added or removed or a state was loaded, so that views are to be taken
     /// anew.
     std::uint64_t layoutVersion() const noexcept;
     /// What pose() says of every slot, into a vector whose memory is used again; entries of holes mean nothing.
+    /// @throws InputError as bodyViews()
     void posesTo(std::vector<Pose>& poses) const;
     /// Writing: one value per body, a later one of the same body after an earlier one. If one is refused, nothing is
     /// written. @throws StaleIdError, InputError as the call for one body, and unless there are as many values as ids
@@ -337,6 +339,15 @@ class World {
     /// rank has; sums(), events() and the diagnostics of statistics() are of the whole world, on all ranks.
     /// @param ranks must outlive the world @throws InputError for a grid that is not one for so many ranks
     void share(Ranks& ranks, const Partition& partition = {});
+    /// The same for a world without bodies, so that no rank ever has all: of those that are added from now on to the
+    /// next step a rank keeps the fixed ones and those that move in its region. All ranks add the same bodies in the
+    /// same order, and each gets all ids. Materials, groups and the like come before, since the world is divided
+    /// already.
+    /// @param places where the bodies will be [m, W], or as many of them as show where they are many: only how evenly
+    ///        they are divided depends on it
+    /// @throws InputError as above, for a world that has bodies, and for places beyond the limit; addBody() then throws
+    ///         for bodies that move and are hulls, compounds or locked
+    void share(Ranks& ranks, const Partition& partition, std::span<const Vec3> places);
     /// Gives all ranks all bodies, with contacts, statistics and faults of the whole world, until the next step; to be
     /// called by all of them, who may then do what they want as on one rank, if all do the same. Costs as much as
     /// sending the world to every rank. Does nothing in a world that is not divided.

@@ -65,14 +65,6 @@ enum class Change : std::uint8_t {
     anew,   ///< every step computes it before reading it, so it is no part of the state and is not saved
 };
 
-/// When somebody else who holds a copy of the body needs the field.
-enum class Sync : std::uint8_t {
-    always,        ///< after every stage that writes it
-    on_creation,   ///< when the copy is made, and after calls that change the field
-    on_migration,  ///< only when the body gets another owner
-    never,         ///< each holder computes it
-};
-
 /// The value of a field of a new body unless its row says otherwise.
 template <class Type>
 Type blank() {
@@ -96,8 +88,8 @@ struct BodyField {
     using Initial = Type (*)();
 
     constexpr BodyField(FieldArray<Type> BodyArrays::*of, std::string_view called, std::string_view in,
-                        Change changed_by, Sync synced, std::type_identity_t<Initial> begins_with = &blank<Type>)
-        : array(of), name(called), unit(in), change(changed_by), sync(synced), initial(begins_with) {}
+                        Change changed_by, std::type_identity_t<Initial> begins_with = &blank<Type>)
+        : array(of), name(called), unit(in), change(changed_by), initial(begins_with) {}
 
     constexpr bool isSaved() const { return change != Change::anew; }
 
@@ -105,49 +97,48 @@ struct BodyField {
     std::string_view name;
     std::string_view unit;  ///< SI; 1 = a number without unit, empty = no number
     Change change;
-    Sync sync;
     Initial initial;  ///< of a body that takes a slot; null = the slot keeps the field
 };
 
 /// All fields, in the order of snapshots: changing order or rows needs another snapshot_version.
 inline constexpr auto body_fields = std::tuple{
-    BodyField{&BodyArrays::kind, "kind", "", Change::calls, Sync::on_creation},
-    BodyField{&BodyArrays::generation, "generation", "1", Change::calls, Sync::on_creation, nullptr},
-    BodyField{&BodyArrays::number, "number", "1", Change::calls, Sync::on_creation},
-    BodyField{&BodyArrays::shape, "shape", "", Change::calls, Sync::on_creation},
-    BodyField{&BodyArrays::material, "material", "", Change::calls, Sync::on_creation},
-    BodyField{&BodyArrays::name, "name", "", Change::calls, Sync::on_migration},
-    BodyField{&BodyArrays::position, "position", "m", Change::steps, Sync::always},
-    BodyField{&BodyArrays::orientation, "orientation", "1", Change::steps, Sync::always},
-    BodyField{&BodyArrays::detected_position, "detected_position", "m", Change::steps, Sync::on_migration, &nowhere},
-    BodyField{&BodyArrays::detected_orientation, "detected_orientation", "1", Change::steps, Sync::on_migration},
-    BodyField{&BodyArrays::v, "v", "m/s", Change::steps, Sync::always},
-    BodyField{&BodyArrays::w, "w", "rad/s", Change::steps, Sync::always},
-    BodyField{&BodyArrays::p_BS, "p_BS", "m", Change::calls, Sync::on_creation},
-    BodyField{&BodyArrays::R_BS, "R_BS", "1", Change::calls, Sync::on_creation},
-    BodyField{&BodyArrays::mass, "mass", "kg", Change::calls, Sync::on_creation},
-    BodyField{&BodyArrays::inertia_B, "inertia_B", "kg·m²", Change::calls, Sync::on_creation},
-    BodyField{&BodyArrays::mass_inv, "mass_inv", "1/kg", Change::calls, Sync::on_creation},
-    BodyField{&BodyArrays::inertiaInv_B, "inertiaInv_B", "1/(kg·m²)", Change::calls, Sync::on_creation},
-    BodyField{&BodyArrays::inertiaInv_W, "inertiaInv_W", "1/(kg·m²)", Change::steps, Sync::always},
-    BodyField{&BodyArrays::r_max, "r_max", "m", Change::calls, Sync::on_creation},
-    BodyField{&BodyArrays::r_min, "r_min", "m", Change::calls, Sync::on_creation},
-    BodyField{&BodyArrays::linear_step, "linear_step", "m", Change::anew, Sync::always},
-    BodyField{&BodyArrays::force, "force", "N", Change::steps, Sync::on_migration},
-    BodyField{&BodyArrays::torque, "torque", "N·m", Change::steps, Sync::on_migration},
-    BodyField{&BodyArrays::constant_force, "constant_force", "N", Change::calls, Sync::on_migration},
-    BodyField{&BodyArrays::constant_torque, "constant_torque", "N·m", Change::calls, Sync::on_migration},
-    BodyField{&BodyArrays::asleep, "asleep", "", Change::steps, Sync::always},
-    BodyField{&BodyArrays::woken, "woken", "", Change::steps, Sync::on_migration},
-    BodyField{&BodyArrays::motion, "motion", "m²/s²", Change::steps, Sync::on_migration},
-    BodyField{&BodyArrays::supports, "supports", "1", Change::steps, Sync::on_migration, [] { return -1; }},
-    BodyField{&BodyArrays::groups, "groups", "", Change::calls, Sync::on_creation},
-    BodyField{&BodyArrays::sensor, "sensor", "", Change::calls, Sync::on_creation},
-    BodyField{&BodyArrays::gravity_factor, "gravity_factor", "1", Change::calls, Sync::on_creation, [] { return 1.0; }},
-    BodyField{&BodyArrays::linear_damping, "linear_damping", "1/s", Change::calls, Sync::on_creation},
-    BodyField{&BodyArrays::angular_damping, "angular_damping", "1/s", Change::calls, Sync::on_creation},
-    BodyField{&BodyArrays::surface_velocity, "surface_velocity", "m/s", Change::calls, Sync::on_creation},
-    BodyField{&BodyArrays::user_data, "user_data", "", Change::calls, Sync::on_migration},
+    BodyField{&BodyArrays::kind, "kind", "", Change::calls},
+    BodyField{&BodyArrays::generation, "generation", "1", Change::calls, nullptr},
+    BodyField{&BodyArrays::number, "number", "1", Change::calls},
+    BodyField{&BodyArrays::shape, "shape", "", Change::calls},
+    BodyField{&BodyArrays::material, "material", "", Change::calls},
+    BodyField{&BodyArrays::name, "name", "", Change::calls},
+    BodyField{&BodyArrays::position, "position", "m", Change::steps},
+    BodyField{&BodyArrays::orientation, "orientation", "1", Change::steps},
+    BodyField{&BodyArrays::detected_position, "detected_position", "m", Change::steps, &nowhere},
+    BodyField{&BodyArrays::detected_orientation, "detected_orientation", "1", Change::steps},
+    BodyField{&BodyArrays::v, "v", "m/s", Change::steps},
+    BodyField{&BodyArrays::w, "w", "rad/s", Change::steps},
+    BodyField{&BodyArrays::p_BS, "p_BS", "m", Change::calls},
+    BodyField{&BodyArrays::R_BS, "R_BS", "1", Change::calls},
+    BodyField{&BodyArrays::mass, "mass", "kg", Change::calls},
+    BodyField{&BodyArrays::inertia_B, "inertia_B", "kg·m²", Change::calls},
+    BodyField{&BodyArrays::mass_inv, "mass_inv", "1/kg", Change::calls},
+    BodyField{&BodyArrays::inertiaInv_B, "inertiaInv_B", "1/(kg·m²)", Change::calls},
+    BodyField{&BodyArrays::inertiaInv_W, "inertiaInv_W", "1/(kg·m²)", Change::steps},
+    BodyField{&BodyArrays::r_max, "r_max", "m", Change::calls},
+    BodyField{&BodyArrays::r_min, "r_min", "m", Change::calls},
+    BodyField{&BodyArrays::linear_step, "linear_step", "m", Change::anew},
+    BodyField{&BodyArrays::force, "force", "N", Change::steps},
+    BodyField{&BodyArrays::torque, "torque", "N·m", Change::steps},
+    BodyField{&BodyArrays::constant_force, "constant_force", "N", Change::calls},
+    BodyField{&BodyArrays::constant_torque, "constant_torque", "N·m", Change::calls},
+    BodyField{&BodyArrays::asleep, "asleep", "", Change::steps},
+    BodyField{&BodyArrays::woken, "woken", "", Change::steps},
+    BodyField{&BodyArrays::motion, "motion", "m²/s²", Change::steps},
+    BodyField{&BodyArrays::supports, "supports", "1", Change::steps, [] { return -1; }},
+    BodyField{&BodyArrays::groups, "groups", "", Change::calls},
+    BodyField{&BodyArrays::sensor, "sensor", "", Change::calls},
+    BodyField{&BodyArrays::gravity_factor, "gravity_factor", "1", Change::calls, [] { return 1.0; }},
+    BodyField{&BodyArrays::linear_damping, "linear_damping", "1/s", Change::calls},
+    BodyField{&BodyArrays::angular_damping, "angular_damping", "1/s", Change::calls},
+    BodyField{&BodyArrays::surface_velocity, "surface_velocity", "m/s", Change::calls},
+    BodyField{&BodyArrays::user_data, "user_data", "", Change::calls},
 };
 
 static_assert(sizeof(BodyArrays) == std::tuple_size_v<decltype(body_fields)> * sizeof(FieldArray<Vec3>),

@@ -4,14 +4,20 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
+#include <type_traits>
+#include <utility>
 
 #include "math/rotation.h"
 
 namespace cairn {
 
 BodyIndex BodyStorage::indexOf(BodyId id) const {
-    if (contains(id)) return id.index;
-    if (lends_slots_ && id.index < kind.size() && generation[id.index] == id.generation) {
+    if (contains(id)) return slotOf(id.index);
+    const BodyIndex i = slotOf(id.index);
+    // What is gone from the whole world is a hole on all ranks.
+    const bool is_lent = is_part_ && id.index < whole_slots_ && (i == no_slot || generation[i] == id.generation);
+    if (is_lent) {
         throw StaleIdError(
             fmt::format("body {}:{} is on another rank now: ask World::contains() first, or call World::gather() on "
                         "all ranks",
@@ -23,10 +29,66 @@ BodyIndex BodyStorage::indexOf(BodyId id) const {
                     id.index, id.generation));
 }
 
+BodyIndex BodyStorage::slotOf(BodyIndex home) const {
+    if (!is_part_) return home;
+    const auto found = std::ranges::lower_bound(homes_, home);
+    return found != homes_.end() && *found == home ? static_cast<BodyIndex>(found - homes_.begin()) : no_slot;
+}
+
+void BodyStorage::beginPart() {
+    is_part_ = true;
+    whole_slots_ = slots();
+    homes_.resize(slots());
+    std::iota(homes_.begin(), homes_.end(), 0U);
+}
+
+void BodyStorage::endPart() {
+    is_part_ = false;
+    homes_ = {};
+}
+
+void BodyStorage::passOver(BodyIndex i) {
+    kind[i] = BodyKind::hole;
+    asleep[i] = 0;
+    --count_;
+    ++layout_version_;
+    // In a slot that another body left before it stays a hole.
+    if (std::size_t{i} + 1 != slots()) return;
+    forEachBodyField([&](const auto& field) { (this->*field.array).resize(i); });
+    homes_.pop_back();
+}
+
+SlotMove BodyStorage::takeHomes(std::vector<BodyIndex> homes) {
+    SlotMove move;
+    move.from.assign(homes.size(), no_slot);
+    move.to.assign(slots(), no_slot);
+    BodyIndex old = 0;
+    for (BodyIndex i = 0; i < homes.size(); ++i) {
+        while (old < homes_.size() && homes_[old] < homes[i]) ++old;
+        if (old == homes_.size() || homes_[old] != homes[i]) continue;
+        move.from[i] = old;
+        move.to[old] = i;
+    }
+    forEachBodyField([&](const auto& field) {
+        auto& values = this->*field.array;
+        using Type = typename std::remove_cvref_t<decltype(values)>::value_type;
+        const Type blank = field.initial != nullptr ? field.initial() : Type{};
+        rearrange(values, move, blank);
+    });
+    for (BodyIndex i = 0; i < homes.size(); ++i) {
+        if (move.from[i] == no_slot) kind[i] = BodyKind::hole;
+    }
+    filter.rename(move);
+    homes_ = std::move(homes);
+    adoptSlots(next_number_);
+    return move;
+}
+
 BodyIndex BodyStorage::allocate(BodyKind new_kind) {
     BodyIndex i = 0;
     if (holes_.empty()) {
         i = static_cast<BodyIndex>(kind.size());
+        if (is_part_) homes_.push_back(static_cast<BodyIndex>(whole_slots_++));
         forEachBodyField([&](const auto& field) { (this->*field.array).resize(std::size_t{i} + 1); });
     } else {
         std::pop_heap(holes_.begin(), holes_.end(), std::greater<>());

@@ -8,6 +8,7 @@
 
 #include "body/body_fields.h"
 #include "body/pair_filter.h"
+#include "body/slot_move.h"
 
 namespace cairn {
 
@@ -78,17 +79,35 @@ class BodyStorage : public BodyArrays {
     std::size_t slots() const { return kind.size(); }
     std::size_t count() const { return count_; }
     bool contains(BodyId id) const {
-        return id.index < kind.size() && kind[id.index] != BodyKind::hole && generation[id.index] == id.generation;
+        const BodyIndex i = slotOf(id.index);
+        return i < kind.size() && kind[i] != BodyKind::hole && generation[i] == id.generation;
     }
-    BodyId idOf(BodyIndex i) const { return {i, generation[i]}; }
+    BodyId idOf(BodyIndex i) const { return {homeOf(i), generation[i]}; }
     /// @throws StaleIdError
     BodyIndex indexOf(BodyId id) const;
 
     /// Takes the lowest hole or appends a slot, every entry reset, with the next number. The caller fills it.
     BodyIndex allocate(BodyKind new_kind);
     void release(BodyIndex i);
-    /// Whether a hole may be a body that another rank has; only messages depend on it.
-    void setLending(bool lends) { lends_slots_ = lends; }
+    /// A world that ranks share has slots only of some bodies. A slot then stands for another one, its home, which is
+    /// that of the body in the whole world and names it; homes ascend. Otherwise a slot is its own home.
+    /// @param i may be beyond all slots, as what is no body, and is its own home then
+    BodyIndex homeOf(BodyIndex i) const { return i < homes_.size() ? homes_[i] : i; }
+    /// The slot that stands for a home; no_slot if there is none here.
+    BodyIndex slotOf(BodyIndex home) const;
+    /// By slot; empty = every slot is its own home.
+    std::span<const BodyIndex> homes() const { return homes_; }
+    /// Number of slots of the whole world.
+    std::size_t wholeSlots() const { return is_part_ ? whole_slots_ : slots(); }
+    /// From now on slots may be those of a part of the world.
+    void beginPart();
+    /// @pre there is a slot for every home
+    void endPart();
+    /// Leaves the body that was allocated last to another rank, with its number and its home. @pre a part
+    void passOver(BodyIndex i);
+    /// Drops slots and adds blank holes. @param homes of the slots there are then, ascending @pre dropped slots are
+    /// holes whose bodies no exception of the filter names, and the world is a part
+    SlotMove takeHomes(std::vector<BodyIndex> homes);
     /// Finds the holes and the count anew. @pre every array has one entry per slot; call it after replacing them
     /// @param next_number above the number of every body
     void adoptSlots(std::uint64_t next_number);
@@ -114,7 +133,9 @@ class BodyStorage : public BodyArrays {
     std::size_t count_ = 0;
     std::uint64_t next_number_ = 0;
     std::uint64_t layout_version_ = 0;
-    bool lends_slots_ = false;
+    bool is_part_ = false;          ///< of a world that ranks share
+    std::size_t whole_slots_ = 0;   ///< where it is a part
+    std::vector<BodyIndex> homes_;  ///< [slots] where it is a part
 };
 
 }  // namespace cairn

@@ -73,6 +73,13 @@ std::optional<Touch> PairFilter::ofPair(BodyIndex a, BodyIndex b) const {
     return place->touch;
 }
 
+void PairFilter::rename(const SlotMove& move) {
+    for (PairException& exception : exceptions_) {
+        exception.a = move(exception.a);
+        exception.b = move(exception.b);
+    }
+}
+
 void PairFilter::forget(BodyIndex body) {
     std::erase_if(exceptions_, [&](const PairException& e) { return e.a == body || e.b == body; });
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "body/body_fields.h"
+#include "body/slot_move.h"
 #include "cairn/filter.h"
 
 namespace cairn {
@@ -39,6 +40,8 @@ class PairFilter {
     std::optional<Touch> ofPair(BodyIndex a, BodyIndex b) const;
     /// Takes back the exceptions of a body that leaves its slot.
     void forget(BodyIndex body);
+    /// Lets exceptions name the slots that bodies have now. @pre none of their slots is gone
+    void rename(const SlotMove& move);
     std::span<const PairException> exceptions() const { return exceptions_; }
 
     /// @param groups_a, groups_b of the bodies, as bits

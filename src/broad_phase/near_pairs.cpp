@@ -71,6 +71,15 @@ void NearPairs::replace(std::span<const std::uint8_t> left, std::vector<ContactP
     pairs_.swap(pairs);
 }
 
+void NearPairs::rearrange(const SlotMove& move) {
+    for (ContactPair& pair : pairs_) {
+        pair.a = move(pair.a);
+        pair.b = move(pair.b);
+    }
+    cairn::rearrange(covered_, move, {});
+    cairn::rearrange(kind_, move, BodyKind::hole);
+}
+
 /// Drops the pairs that were searched again and not found; of those that were found only the new ones remain in
 /// new_pairs_.
 void NearPairs::dropLeft() {

@@ -50,6 +50,8 @@ class NearPairs {
     /// To be called when some bodies left and others came, which the next update searches.
     /// @param left [slots] 1 = the slot's body left @param pairs sorted, none of bodies that left; out: kept memory
     void replace(std::span<const std::uint8_t> left, std::vector<ContactPair>& pairs);
+    /// To be called when bodies stand in other slots. @pre no pair is of a slot that is gone
+    void rearrange(const SlotMove& move);
     /// Sorted by (a, b), each once; among them all pairs (a < b, not both fixed) whose bounds overlap. New ones
     /// are untested.
     std::span<ContactPair> pairs() { return pairs_; }

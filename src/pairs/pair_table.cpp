@@ -216,6 +216,15 @@ void PairTable::change(const PairChange& change, std::vector<Contact>& contacts)
     came_.insert(came_.end(), change.came.begin(), change.came.end());
 }
 
+void PairTable::rearrange(const SlotMove& move) {
+    near_pairs_.rearrange(move);
+    cairn::rearrange(ahead_, move, {});
+    cairn::rearrange(unmoved_, move, 0);
+    cairn::rearrange(bounds_, move, {});
+    for (BodyIndex& body : came_) body = move(body);
+    std::erase(came_, no_slot);
+}
+
 /// Compares every body with where it was detected last.
 void PairTable::findUnmoved(const PairsInput& input) {
     const BodyStorage& bodies = input.bodies;

@@ -67,6 +67,8 @@ class PairTable {
     /// To be called when some bodies left their slots, with their contacts, and others came with theirs: all else
     /// stays.
     void change(const PairChange& change, std::vector<Contact>& contacts);
+    /// To be called when bodies stand in other slots. @pre no pair is of a slot that is gone
+    void rearrange(const SlotMove& move);
 
     /// All of them, sorted by (a, b), whether they touch or not.
     std::span<const ContactPair> pairs() const { return near_pairs_.pairs(); }

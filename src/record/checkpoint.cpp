@@ -73,7 +73,7 @@ void removeOthers(const std::filesystem::path& file, std::optional<std::uint64_t
 /// The number of the next checkpoint. @throws IoError if its folder cannot be made
 std::uint64_t beginParts(const std::filesystem::path& file) {
     std::error_code error;
-    std::filesystem::create_directories(partsFolder(file), error);
+    std::filesystem::create_directory(partsFolder(file), error);
     if (error) {
         throw IoError(fmt::format("{}: cannot be made: {}", partsFolder(file).string(), error.message()));
     }

@@ -7,6 +7,7 @@
 #include "cairn/scene.h"
 #include "scene/body_title.h"
 #include "scene/drives.h"
+#include "sharing/body_records.h"
 #include "world/step_rate.h"
 
 namespace cairn {
@@ -200,6 +201,26 @@ struct BodyAction {
     void operator()(const RemoveBody& a) const { world.removeBody(bodyId(ids, a.body)); }
 };
 
+/// Whether ranks can get their bodies one by one: nothing that all must know names a body that moves.
+bool canBeDealtOut(const Scene& scene) {
+    const bool is_tied = !scene.springs.empty() || !scene.joints.empty() || !scene.drives.empty() ||
+                         !scene.filters.exceptions.empty() || scene.frame_motion.has_value();
+    const auto isDealable = [](const SceneBody& body) {
+        const bool is_fixed = body.fixed || body.motion.has_value();
+        return body.position.allFinite() && (is_fixed || (isSent(body.shape) && body.locked.empty()));
+    };
+    return !is_tied && std::ranges::all_of(scene.bodies, isDealable);
+}
+
+/// Where the bodies that move are [m, W].
+std::vector<Vec3> placesIn(const Scene& scene) {
+    std::vector<Vec3> places;
+    for (const SceneBody& body : scene.bodies) {
+        if (!body.fixed && !body.motion) places.push_back(body.position);
+    }
+    return places;
+}
+
 }  // namespace
 
 Settings settingsFor(const Scene& scene, const SettingOverrides& overrides) {
@@ -215,7 +236,12 @@ Settings settingsFor(const Scene& scene, const SettingOverrides& overrides) {
     return settings;
 }
 
-SceneRun::SceneRun(Scene scene, const Settings& settings)
+SceneRun::SceneRun(Scene scene, const Settings& settings) : SceneRun(std::move(scene), settings, nullptr, {}) {}
+
+SceneRun::SceneRun(Scene scene, const Settings& settings, Ranks& ranks, const Partition& partition)
+    : SceneRun(std::move(scene), settings, &ranks, partition) {}
+
+SceneRun::SceneRun(Scene scene, const Settings& settings, Ranks* ranks, const Partition& partition)
     : scene_(std::move(scene)), world_(withKnownSteps(settings, stepExponent(scene_))) {
     std::stable_sort(scene_.events.begin(), scene_.events.end(),
                      [](const SceneEvent& a, const SceneEvent& b) { return a.time < b.time; });
@@ -225,12 +251,14 @@ SceneRun::SceneRun(Scene scene, const Settings& settings)
         if (scene_.gravity_law) requireFunction(*scene_.gravity_law, scene_.gravity);
         world_.setGravity(scene_.gravity, scene_.gravity_law);
     });
+    const bool deals_out = ranks != nullptr && canBeDealtOut(scene_);
+    if (deals_out) world_.share(*ranks, partition, placesIn(scene_));
     ids_.reserve(scene_.bodies.size());
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
         inContext(bodyTitle(scene_, i),
                   [&] { ids_.push_back(world_.addBody(describe(scene_.bodies[i], materials, groups))); });
     }
-    inContext("frame_motion", [&] { world_.setFrameMotion(scene_.frame_motion); });
+    if (scene_.frame_motion) inContext("frame_motion", [&] { world_.setFrameMotion(scene_.frame_motion); });
     for (const SceneException& exception : scene_.filters.exceptions) {
         inContext("filters",
                   [&] { world_.setPairTouch(bodyId(ids_, exception.a), bodyId(ids_, exception.b), exception.touch); });
@@ -244,6 +272,7 @@ SceneRun::SceneRun(Scene scene, const Settings& settings)
                   [&] { joints.push_back(addJoint(scene_.joints[i], ids_, joints, world_)); });
     }
     takeDrives();
+    if (ranks != nullptr && !deals_out) world_.share(*ranks, partition);
 }
 
 void SceneRun::takeDrives() {

@@ -2,20 +2,68 @@
 
 #include <string>
 #include <type_traits>
+#include <variant>
 
 namespace cairn {
 
 namespace {
 
-/// Calls visit(array) for the fields that a body takes along.
+/// Says that a shape is not sent.
+constexpr std::uint8_t known_shape = UINT8_MAX;
+
+/// Calls visit(array) for the fields that are numbers.
 template <class Bodies, class Visit>
-void forTakenFields(Bodies& bodies, const Visit& visit) {
+void forPlainFields(Bodies& bodies, const Visit& visit) {
     forEachBodyField([&](const auto& field) {
         auto& values = bodies.*field.array;
-        using Type = typename std::remove_cvref_t<decltype(values)>::value_type;
-        if constexpr (Sendable<Type>) {
-            if (field.sync == Sync::always || field.sync == Sync::on_migration) visit(values);
-        }
+        if constexpr (Sendable<typename std::remove_cvref_t<decltype(values)>::value_type>) visit(values);
+    });
+}
+
+// What a shape that is sent consists of.
+template <class Visit>
+void forNumbers(Sphere& sphere, const Visit& visit) {
+    visit(sphere.radius);
+}
+template <class Visit>
+void forNumbers(Box& box, const Visit& visit) {
+    visit(box.size);
+}
+template <class Visit>
+void forNumbers(Capsule& capsule, const Visit& visit) {
+    visit(capsule.radius);
+    visit(capsule.length);
+}
+template <class Visit>
+void forNumbers(Cylinder& cylinder, const Visit& visit) {
+    visit(cylinder.radius);
+    visit(cylinder.length);
+}
+
+/// Calls visit(solid) with one of each kind that is sent.
+template <class Visit>
+void forSentKinds(const Visit& visit) {
+    visit(Sphere{});
+    visit(Box{});
+    visit(Capsule{});
+    visit(Cylinder{});
+}
+
+void packShape(std::vector<std::byte>& message, const Shape& shape) {
+    pack(message, isSent(shape) ? static_cast<std::uint8_t>(shape.index()) : known_shape);
+    forSentKinds([&](auto solid) {
+        if (!std::holds_alternative<decltype(solid)>(shape)) return;
+        solid = std::get<decltype(solid)>(shape);
+        forNumbers(solid, [&](const auto& number) { pack(message, number); });
+    });
+}
+
+void unpackShape(Unpacker& in, Shape& shape) {
+    const auto kind = in.get<std::uint8_t>();
+    forSentKinds([&](auto solid) {
+        if (Shape(solid).index() != kind) return;
+        forNumbers(solid, [&](auto& number) { number = in.get<std::remove_cvref_t<decltype(number)>>(); });
+        shape = solid;
     });
 }
 
@@ -36,14 +84,27 @@ void forChangingMembers(AnyJoint& joint, const Visit& visit) {
 
 }  // namespace
 
+bool isSent(const Shape& shape) {
+    bool sent = false;
+    forSentKinds(
+        [&](const auto& solid) { sent = sent || std::holds_alternative<std::remove_cvref_t<decltype(solid)>>(shape); });
+    return sent;
+}
+
 void packBody(std::vector<std::byte>& message, const BodyStorage& bodies, BodyIndex i) {
-    forTakenFields(bodies, [&](const auto& values) { pack(message, values[i]); });
+    forPlainFields(bodies, [&](const auto& values) { pack(message, values[i]); });
+    packShape(message, bodies.shape[i]);
+    pack(message, static_cast<std::uint64_t>(bodies.name[i].size()));
+    for (const char letter : bodies.name[i]) pack(message, letter);
 }
 
 void unpackBody(Unpacker& in, BodyStorage& bodies, BodyIndex i) {
-    forTakenFields(bodies, [&](auto& values) {
+    forPlainFields(bodies, [&](auto& values) {
         values[i] = in.get<typename std::remove_cvref_t<decltype(values)>::value_type>();
     });
+    unpackShape(in, bodies.shape[i]);
+    bodies.name[i].resize(in.get<std::uint64_t>());
+    for (char& letter : bodies.name[i]) letter = in.get<char>();
 }
 
 void packContact(std::vector<std::byte>& message, const Contact& contact) {
@@ -58,6 +119,11 @@ Contact unpackContact(Unpacker& in) {
 
 void packJoint(std::vector<std::byte>& message, const Joint& joint) {
     forChangingMembers(joint, [&](const auto& member) { pack(message, member); });
+}
+
+void forgetLoad(Joint& joint) {
+    joint.impulse.setZero();
+    joint.angular_impulse.setZero();
 }
 
 void unpackJoint(Unpacker& in, Joint& joint) {

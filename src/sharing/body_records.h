@@ -11,8 +11,10 @@
 
 namespace cairn {
 
-/// Appends what another rank does not know of a body: the fields that steps change and those that calls change for its
-/// holder alone. What was given when the body was added all ranks know.
+/// Whether a shape is sent with its body: it is of a few numbers. Others are on all ranks.
+bool isSent(const Shape& shape);
+
+/// Appends all fields of a body but a shape that is not sent.
 void packBody(std::vector<std::byte>& message, const BodyStorage& bodies, BodyIndex i);
 /// Reads the same into the body's slot.
 void unpackBody(Unpacker& in, BodyStorage& bodies, BodyIndex i);
@@ -26,5 +28,7 @@ Contact unpackContact(Unpacker& in);
 void packJoint(std::vector<std::byte>& message, const Joint& joint);
 /// Reads the same into the joint.
 void unpackJoint(Unpacker& in, Joint& joint);
+/// A joint that is on another rank must not break here by what it bore.
+void forgetLoad(Joint& joint);
 
 }  // namespace cairn

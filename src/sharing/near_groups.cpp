@@ -43,7 +43,7 @@ void NearGroups::find(const NearGroupsInput& input, const Executor& executor) {
 bool NearGroups::meetOthers(const NearGroupsInput& input, const Executor& executor, Ranks& ranks) {
     begin(input);
     tellCovers(input, ranks);
-    search_.findPairs({.kind = kind_, .bounds = cover_, .still = others_}, executor, pairs_);
+    input.search.findPairs({.kind = kind_, .bounds = cover_, .still = others_}, executor, pairs_);
     const bool meets =
         std::ranges::any_of(pairs_, [&](const BodyPair& pair) { return (others_[pair.a] | others_[pair.b]) != 0; });
     const std::vector<std::uint8_t> all = gatherAll(ranks, static_cast<std::uint8_t>(meets ? 1 : 0));
@@ -59,8 +59,16 @@ void NearGroups::findAcross(const NearGroupsInput& input, const Executor& execut
 
 void NearGroups::begin(const NearGroupsInput& input) {
     const std::size_t slots = input.kind.size();
+    slots_ = slots;
+    behind_.clear();
+    home_.resize(slots);
     parent_.resize(slots);
     std::iota(parent_.begin(), parent_.end(), 0);
+    if (input.home.empty()) {
+        std::iota(home_.begin(), home_.end(), 0);
+    } else {
+        std::ranges::copy(input.home, home_.begin());
+    }
     kind_.assign(slots, BodyKind::hole);
     others_.assign(slots, 0);
     cover_.resize(slots);
@@ -72,7 +80,7 @@ void NearGroups::begin(const NearGroupsInput& input) {
 
 /// All bodies of this rank are searched, with those of others that were told.
 void NearGroups::searchAll(const NearGroupsInput& input) {
-    for (std::size_t i = 0; i < kind_.size(); ++i) {
+    for (std::size_t i = 0; i < slots_; ++i) {
         if (input.kind[i] == BodyKind::dynamic) kind_[i] = BodyKind::dynamic;
     }
 }
@@ -81,7 +89,7 @@ void NearGroups::searchAll(const NearGroupsInput& input) {
 void NearGroups::tellCovers(const NearGroupsInput& input, Ranks& ranks) {
     const auto own = static_cast<std::size_t>(ranks.rank());
     Bounds all = emptyBounds();
-    for (BodyIndex i = 0; i < kind_.size(); ++i) {
+    for (BodyIndex i = 0; i < slots_; ++i) {
         if (input.kind[i] == BodyKind::dynamic) include(all, cover_[i]);
     }
     std::vector<std::byte> message;
@@ -92,18 +100,18 @@ void NearGroups::tellCovers(const NearGroupsInput& input, Ranks& ranks) {
         reach.push_back(unpackBounds(in));
     }
     Ranks::Messages out(reach.size());
-    for (BodyIndex i = 0; i < kind_.size(); ++i) {
+    for (BodyIndex i = 0; i < slots_; ++i) {
         if (input.kind[i] != BodyKind::dynamic) continue;
         for (std::size_t to = 0; to < out.size(); ++to) {
             if (to == own || !cover_[i].overlaps(reach[to])) continue;
-            pack(out[to], i);
+            pack(out[to], home_[i]);
             packBounds(out[to], cover_[i]);
             kind_[i] = BodyKind::dynamic;
         }
     }
     for (const auto& told : ranks.exchange(std::move(out))) {
         for (Unpacker in(told); !in.isAtEnd();) {
-            const auto i = in.get<BodyIndex>();
+            const BodyIndex i = entryOf(in.get<BodyIndex>());
             cover_[i] = unpackBounds(in);
             kind_[i] = BodyKind::dynamic;
             others_[i] = 1;
@@ -113,7 +121,7 @@ void NearGroups::tellCovers(const NearGroupsInput& input, Ranks& ranks) {
 
 /// Joins what is near on this rank, and notes the pairs with bodies of other ranks.
 void NearGroups::connect(const NearGroupsInput& input, const Executor& executor) {
-    search_.findPairs({.kind = kind_, .bounds = cover_, .still = others_}, executor, pairs_);
+    input.search.findPairs({.kind = kind_, .bounds = cover_, .still = others_}, executor, pairs_);
     across_.clear();
     near_others_.clear();
     for (const BodyPair& pair : pairs_) {
@@ -150,31 +158,48 @@ void NearGroups::connectAcross(Ranks& ranks) {
     pack(message, static_cast<std::uint64_t>(near_others_.size()));
     for (const BodyIndex i : near_others_) {
         const BodyIndex group = representative(i);
-        pack(message, i);
-        pack(message, group);
+        pack(message, home_[i]);
+        pack(message, home_[group]);
         packBounds(message, box_[group]);
     }
     for (const BodyPair& pair : across_) {
         // The other rank tells it otherwise.
-        if (others_[pair.a] == 0) pack(message, pair);
+        if (others_[pair.a] == 0) pack(message, BodyPair{home_[pair.a], home_[pair.b]});
     }
     std::vector<std::pair<BodyIndex, Bounds>> boxes;
     for (const auto& told : tellAll(ranks, message)) {
         Unpacker in(told);
         for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
-            const auto i = in.get<BodyIndex>();
-            const auto group = in.get<BodyIndex>();
+            const BodyIndex i = entryOf(in.get<BodyIndex>());
+            const BodyIndex group = entryOf(in.get<BodyIndex>());
             boxes.emplace_back(group, unpackBounds(in));
             join(i, group);
         }
         while (!in.isAtEnd()) {
             const auto pair = in.get<BodyPair>();
-            join(pair.a, pair.b);
+            join(entryOf(pair.a), entryOf(pair.b));
         }
     }
     // All parts of these groups were told, those of this rank as well.
     for (const auto& [group, box] : boxes) box_[representative(group)] = emptyBounds();
     for (const auto& [group, box] : boxes) include(box_[representative(group)], box);
+}
+
+/// The entry of a body on any rank; one of which nothing was known is a group by itself.
+BodyIndex NearGroups::entryOf(BodyIndex home) {
+    const auto slots = std::span(home_).first(slots_);
+    const auto slot = std::ranges::lower_bound(slots, home);
+    if (slot != slots.end() && *slot == home) return static_cast<BodyIndex>(slot - slots.begin());
+    const auto [place, is_new] = behind_.emplace(home, static_cast<BodyIndex>(home_.size()));
+    if (is_new) {
+        home_.push_back(home);
+        parent_.push_back(place->second);
+        kind_.push_back(BodyKind::hole);
+        others_.push_back(1);
+        cover_.push_back(emptyBounds());
+        box_.push_back(emptyBounds());
+    }
+    return place->second;
 }
 
 BodyIndex NearGroups::representative(BodyIndex i) {
@@ -189,7 +214,11 @@ BodyIndex NearGroups::representative(BodyIndex i) {
 void NearGroups::join(BodyIndex a, BodyIndex b) {
     const BodyIndex p = representative(a);
     const BodyIndex q = representative(b);
-    parent_[std::max(p, q)] = std::min(p, q);
+    if (home_[p] < home_[q]) {
+        parent_[q] = p;
+    } else {
+        parent_[p] = q;
+    }
 }
 
 }  // namespace cairn

@@ -1,7 +1,9 @@
 #include "sharing/shared_bodies.h"
 
 #include <algorithm>
+#include <unordered_map>
 #include <utility>
+#include <variant>
 
 #include "messages/packing.h"
 #include "sharing/body_records.h"
@@ -20,12 +22,6 @@ constexpr double time_ahead = 1.0 / 60;
 /// Time steps after which bodies that went into the region of another rank and met nobody go there.
 constexpr std::int64_t home_every = 30;
 
-/// Stands for no rank.
-constexpr std::uint32_t no_rank = UINT32_MAX;
-
-/// What follows in a message to another rank.
-enum class Item : std::uint8_t { body, contact, joint };
-
 /// What a rank asks of the others at the beginning of a step …
 enum Wish : std::uint8_t { nothing = 0, groups_anew = 1, tell_frozen = 2 };
 
@@ -35,16 +31,16 @@ struct Asked {
     double fastest;  ///< DealtOut::fastest [m/s]
 };
 
+/// What copies of a shape that is not sent have in common. A compound has its parts for itself.
+const void* dataOf(const Shape& shape) {
+    if (const auto* hull = std::get_if<ConvexHull>(&shape)) return &hull->data();
+    return &shape;
+}
+
 std::uint64_t mixed(std::uint64_t x) {
     x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
     x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
     return x ^ (x >> 31U);
-}
-
-/// A joint that is on another rank must not break here by what it bore.
-void forgetLoad(Joint& joint) {
-    joint.impulse.setZero();
-    joint.angular_impulse.setZero();
 }
 
 }  // namespace
@@ -53,34 +49,65 @@ SharedBodies::SharedBodies(Ranks& ranks, const Partition& partition) : ranks_(ra
     requirePartition(partition, ranks.size());
 }
 
-bool SharedBodies::settle(const DealtOut& world) {
+void SharedBodies::deal(BodyStorage& bodies, std::vector<Vec3> places) {
+    regions_.emplace(partition_, ranks_.size(), std::move(places));
+    bodies.beginPart();
+    whole_ = false;
+    is_dealing_ = true;
+}
+
+void SharedBodies::dealOut(BodyStorage& bodies, BodyIndex i, const Vec3& place) {
+    const BodyKind kind = bodies.kind[i];
+    const bool is_own = kind != BodyKind::dynamic || ownerOf(bodies.homeOf(i), place, 0) == ranks_.rank();
+    if (!is_own) bodies.passOver(i);
+    kind_.resize(bodies.slots(), BodyKind::hole);
+    if (i < kind_.size()) kind_[i] = kind;
+}
+
+/// From now on the bodies are those of any divided world.
+void SharedBodies::endDealing(const DealtOut& world) {
+    const std::size_t slots = world.bodies.slots();
+    is_dealing_ = false;
+    // What joints and the like name was fixed, and is on all ranks.
+    stays_.assign(slots, 0);
+    solid_.assign(slots, no_slot);
+    cover_.resize(slots);
+    covered_.assign(slots, 0);
+    owner_.assign(slots, static_cast<std::uint32_t>(ranks_.rank()));
+    left_.assign(slots, 0);
+}
+
+void SharedBodies::settle(const DealtOut& world) {
+    if (is_dealing_) endDealing(world);
     if (whole_) {
         divide(world);
-        return true;
+        return;
     }
     if (ranks_.size() == 1) {
         // Nobody is elsewhere.
         fastest_ = world.fastest;
-        return false;
+        return;
     }
-    if (!isDue(world)) return false;
+    if (!isDue(world)) return;
     coverAll(world);
     const NearGroupsInput input = groupsInput(world);
     // Where no bodies of two ranks meet, each may stay where it is.
-    if (!groups_.meetOthers(input, world.executor, ranks_) && !goHome(world.step)) return false;
+    if (!groups_.meetOthers(input, world.executor, ranks_) && !goHome(world.step)) return;
     groups_.findAcross(input, world.executor, ranks_);
     findOwners(world);
-    return moveHouse(world);
+    moveHouse(world);
 }
 
 /// Every rank keeps its part of what all have.
 void SharedBodies::divide(const DealtOut& world) {
     BodyStorage& bodies = world.bodies;
     kind_.assign(bodies.kind.begin(), bodies.kind.end());
+    stays_.assign(bodies.slots(), 0);
+    for (const BodyIndex i : world.named) stays_[i] = 1;
+    listSolids(bodies);
     cover_.resize(bodies.slots());
     covered_.assign(bodies.slots(), 0);
     owner_.resize(bodies.slots());
-    ahead_.resize(bodies.slots());
     fastest_ = world.fastest;
     coverSpeed();
     coverAll(world);
@@ -104,39 +131,28 @@ void SharedBodies::divide(const DealtOut& world) {
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (isOwn(bodies, i) && owner_[i] != own) leave(bodies, i);
     }
-    bodies.adoptSlots(bodies.nextNumber());
+    bodies.beginPart();
     world.pairs.adopt(world.contacts);
-    bodies.setLending(true);
     whole_ = false;
+    // What was found of the whole world is not needed any more.
+    groups_ = NearGroups();
+    left_.assign(bodies.slots(), 0);
+    dropVacant(world, 0);
+    bodies.adoptSlots(bodies.nextNumber());
 }
 
-void SharedBodies::gather(const DealtOut& world) {
-    if (whole_) return;
-    BodyStorage& bodies = world.bodies;
-    tellFrozen(bodies);
-    std::vector<std::byte> message;
+/// Numbers the shapes that are not sent, as all ranks do.
+void SharedBodies::listSolids(const BodyStorage& bodies) {
+    std::unordered_map<const void*, std::uint32_t> known;
+    solids_.clear();
+    solid_.assign(bodies.slots(), no_slot);
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (isOwn(bodies, i)) packResident(message, world, i);
+        if (!isOwn(bodies, i) || isSent(bodies.shape[i])) continue;
+        const auto next = static_cast<std::uint32_t>(solids_.size());
+        const auto [place, is_new] = known.emplace(dataOf(bodies.shape[i]), next);
+        if (is_new) solids_.push_back(bodies.shape[i]);
+        solid_[i] = place->second;
     }
-    for (const Contact& contact : world.contacts) {
-        pack(message, Item::contact);
-        packContact(message, contact);
-    }
-    for (std::uint32_t j = 0; j < world.joints.size(); ++j) {
-        const BodyIndex end = endOf(world.joints[j]);
-        if (end == Joint::world || !isOwn(bodies, end)) continue;
-        pack(message, Item::joint);
-        pack(message, j);
-        packJoint(message, world.joints[j]);
-    }
-    Ranks::Messages told = tellAll(ranks_, message);
-    told[static_cast<std::size_t>(ranks_.rank())].clear();
-    left_.assign(bodies.slots(), 0);
-    takeIn(world, told);
-    world.pairs.change({left_, came_, contacts_}, world.contacts);
-    bodies.adoptSlots(bodies.nextNumber());
-    bodies.setLending(false);
-    whole_ = true;
 }
 
 bool SharedBodies::goHome(std::int64_t step) const {
@@ -169,7 +185,7 @@ bool SharedBodies::isDue(const DealtOut& world) {
     if (fastest_ > covered_speed_) all |= groups_anew;
     const bool slower = (all & groups_anew) != 0 && fastest_ < covered_speed_ / 2;
     if (fastest_ > covered_speed_ || slower) coverSpeed();
-    if ((all & tell_frozen) != 0) tellFrozen(world.bodies);
+    if ((all & tell_frozen) != 0) tellFrozen(world);
     if (isRebalanced(world.step)) cut(world);
     return all != nothing;
 }
@@ -194,10 +210,11 @@ void SharedBodies::cut(const DealtOut& world) {
 }
 
 /// Where a detection searches a body, and where it may be followed to if it is struck.
-Bounds SharedBodies::reachOf(const DealtOut& world, BodyIndex i) {
-    Bounds reach = searchedBounds(world.bodies, world.range, i, ahead_[i]);
+Bounds SharedBodies::reachOf(const DealtOut& world, BodyIndex i) const {
+    BodyAhead ahead;
+    Bounds reach = searchedBounds(world.bodies, world.range, i, ahead);
     if (world.range.foresight.time == 0) return reach;
-    const Bounds struck = ahead_[i].now.grown(covered_speed_ * world.range.foresight.time);
+    const Bounds struck = ahead.now.grown(covered_speed_ * world.range.foresight.time);
     reach.lower = reach.lower.cwiseMin(struck.lower);
     reach.upper = reach.upper.cwiseMax(struck.upper);
     return reach;
@@ -221,19 +238,22 @@ void SharedBodies::coverAll(const DealtOut& world) {
 }
 
 /// Lets all ranks know the bodies that were fixed by a fault: what is fixed is on all of them.
-void SharedBodies::tellFrozen(BodyStorage& bodies) {
+void SharedBodies::tellFrozen(const DealtOut& world) {
+    BodyStorage& bodies = world.bodies;
     std::vector<std::byte> message;
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (kind_[i] != BodyKind::dynamic || bodies.kind[i] != BodyKind::fixed) continue;
-        pack(message, i);
-        packBody(message, bodies, i);
+        pack(message, bodies.homeOf(i));
+        packWhole(message, bodies, i);
     }
     bool any = false;
     for (const auto& told : tellAll(ranks_, message)) {
         for (Unpacker in(told); !in.isAtEnd();) {
-            const auto i = in.get<BodyIndex>();
+            const auto home = in.get<BodyIndex>();
+            addHomes(world, {home});
+            const BodyIndex i = bodies.slotOf(home);
             const bool is_new = bodies.kind[i] == BodyKind::hole;
-            unpackBody(in, bodies, i);
+            unpackWhole(in, bodies, i);
             // Here nothing was found of it yet.
             if (is_new) bodies.detected_position[i] = nowhere();
             kind_[i] = bodies.kind[i] = BodyKind::fixed;
@@ -246,23 +266,26 @@ void SharedBodies::tellFrozen(BodyStorage& bodies) {
 
 NearGroupsInput SharedBodies::groupsInput(const DealtOut& world) const {
     const BodyStorage& bodies = world.bodies;
-    return {bodies.kind, cover_, bodies.position, world.contacts, world.tied};
+    return {bodies.kind, cover_, bodies.position, world.contacts, world.tied, world.search, bodies.homes()};
 }
 
 void SharedBodies::findOwners(const DealtOut& world) {
     for (BodyIndex i = 0; i < world.bodies.slots(); ++i) {
-        if (isOwn(world.bodies, i)) owner_[i] = static_cast<std::uint32_t>(ownerOf(world, groups_.groupOf(i)));
+        if (!isOwn(world.bodies, i)) continue;
+        const BodyIndex group = groups_.groupOf(i);
+        owner_[i] = static_cast<std::uint32_t>(ownerOf(groups_.nameOf(group), groups_.middleOf(group), world.step));
     }
 }
 
 /// The rank that a group belongs to; all ranks that have a part of it tell the same.
-int SharedBodies::ownerOf(const DealtOut& world, BodyIndex group) const {
+/// @param name of the group @param place of its middle [m, W]
+int SharedBodies::ownerOf(BodyIndex name, const Vec3& place, std::int64_t step) const {
     const auto count = static_cast<std::uint64_t>(ranks_.size());
-    const auto turn = partition_.restless ? static_cast<std::uint64_t>(world.step) : 0;
+    const auto turn = partition_.restless ? static_cast<std::uint64_t>(step) : 0;
     if (partition_.kind == PartitionKind::hash) {
-        return static_cast<int>((mixed(world.bodies.number[group] + 1) + turn) % count);
+        return static_cast<int>((mixed(std::uint64_t{name} + 1) + turn) % count);
     }
-    return static_cast<int>((static_cast<std::uint64_t>(regions_->ownerOf(groups_.middleOf(group))) + turn) % count);
+    return static_cast<int>((static_cast<std::uint64_t>(regions_->ownerOf(place)) + turn) % count);
 }
 
 /// The rank that has or gets a contact of own bodies: that of its bodies that can move.
@@ -275,108 +298,6 @@ std::uint32_t SharedBodies::holderOf(const Contact& contact) const {
 BodyIndex SharedBodies::endOf(const Joint& joint) const {
     if (isMovable(kind_, joint.a)) return joint.a;
     return isMovable(kind_, joint.b) ? joint.b : Joint::world;
-}
-
-/// Takes the bodies that belong elsewhere out of this world. @param out gets them @return whether there are any
-bool SharedBodies::moveAway(const DealtOut& world, Ranks::Messages& out) {
-    BodyStorage& bodies = world.bodies;
-    const auto own = static_cast<std::uint32_t>(ranks_.rank());
-    bool any = false;
-    left_.assign(bodies.slots(), 0);
-    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (!isOwn(bodies, i) || owner_[i] == own) continue;
-        packResident(out[owner_[i]], world, i);
-        leave(bodies, i);
-        left_[i] = 1;
-        any = true;
-    }
-    if (!any) return false;
-    for (const Contact& contact : world.contacts) {
-        const std::uint32_t holder = holderOf(contact);
-        if (holder == no_rank || holder == own) continue;
-        pack(out[holder], Item::contact);
-        packContact(out[holder], contact);
-    }
-    for (std::uint32_t j = 0; j < world.joints.size(); ++j) {
-        Joint& joint = world.joints[j];
-        const auto sendWith = [&](BodyIndex end) {
-            pack(out[owner_[end]], Item::joint);
-            pack(out[owner_[end]], j);
-            packJoint(out[owner_[end]], joint);
-        };
-        const bool with_a = isMovable(kind_, joint.a) && left_[joint.a] != 0;
-        const bool with_b = isMovable(kind_, joint.b) && left_[joint.b] != 0;
-        if (!with_a && !with_b) continue;
-        if (with_a) sendWith(joint.a);
-        // The ends of a joint that broke need not go together; both must know.
-        if (with_b && !(with_a && owner_[joint.a] == owner_[joint.b])) sendWith(joint.b);
-        forgetLoad(joint);
-    }
-    return true;
-}
-
-/// Takes in what others sent.
-void SharedBodies::takeIn(const DealtOut& world, const Ranks::Messages& in) {
-    came_.clear();
-    contacts_.clear();
-    for (const auto& message : in) {
-        for (Unpacker reader(message); !reader.isAtEnd();) {
-            switch (reader.get<Item>()) {
-                case Item::body:
-                    came_.push_back(unpackResident(reader, world));
-                    break;
-                case Item::contact:
-                    contacts_.push_back(unpackContact(reader));
-                    break;
-                case Item::joint: {
-                    const auto j = reader.get<std::uint32_t>();
-                    unpackJoint(reader, world.joints[j]);
-                    break;
-                }
-            }
-        }
-    }
-    // Those of a pair all come from one rank, in their order.
-    std::ranges::stable_sort(contacts_, {}, [](const Contact& contact) { return BodyPair{contact.a, contact.b}; });
-}
-
-bool SharedBodies::moveHouse(const DealtOut& world) {
-    Ranks::Messages out(static_cast<std::size_t>(ranks_.size()));
-    const bool left = moveAway(world, out);
-    takeIn(world, ranks_.exchange(std::move(out)));
-    if (!left && came_.empty()) return false;
-    world.pairs.change({left_, came_, contacts_}, world.contacts);
-    world.bodies.adoptSlots(world.bodies.nextNumber());
-    return true;
-}
-
-/// Appends a body with what this room and the step remember of it.
-void SharedBodies::packResident(std::vector<std::byte>& message, const DealtOut& world, BodyIndex i) const {
-    pack(message, Item::body);
-    pack(message, i);
-    packBody(message, world.bodies, i);
-    pack(message, cover_[i].lower);
-    pack(message, cover_[i].upper);
-    if (!world.begun.empty()) pack(message, world.begun[i]);
-}
-
-BodyIndex SharedBodies::unpackResident(Unpacker& in, const DealtOut& world) {
-    const auto i = in.get<BodyIndex>();
-    unpackBody(in, world.bodies, i);
-    world.bodies.kind[i] = BodyKind::dynamic;
-    cover_[i].lower = in.get<Vec3>();
-    cover_[i].upper = in.get<Vec3>();
-    covered_[i] = 1;
-    owner_[i] = static_cast<std::uint32_t>(ranks_.rank());
-    if (!world.begun.empty()) world.begun[i] = in.get<Vec3>();
-    return i;
-}
-
-/// Leaves a slot to the rank that has its body.
-void SharedBodies::leave(BodyStorage& bodies, BodyIndex i) const {
-    bodies.kind[i] = BodyKind::hole;
-    bodies.asleep[i] = 0;
-    bodies.woken[i] = WakeReason::none;
 }
 
 }  // namespace cairn

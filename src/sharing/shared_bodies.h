@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,17 +26,23 @@ struct DealtOut {
     PairTable& pairs;
     std::vector<Contact>& contacts;  ///< of the last step, sorted by (a, b)
     std::span<Joint> joints;
-    std::span<Vec3> begun;           ///< [slots] positions at the beginning of the step, or empty [m, W]
-    std::span<const BodyPair> tied;  ///< bodies that belong together, wherever they are
-    const DetectionRange& range;     ///< of the detection that follows
-    double fastest;                  ///< of the bodies here: a struck one is looked ahead for so far [m/s]
-    std::int64_t step;               ///< number of the time step
+    std::span<const BodyIndex> named;  ///< bodies that keep a slot on all ranks, since lasting things name them
+    std::vector<Vec3>* begun;          ///< [slots] positions at the beginning of the step, or null [m, W]
+    std::vector<BodyPair>& tied;       ///< bodies that belong together, wherever they are
+    BroadPhase& search;                ///< of the detection that follows
+    const DetectionRange& range;       ///< likewise
+    double fastest;                    ///< of the bodies here: a struck one is looked ahead for so far [m/s]
+    std::int64_t step;                 ///< number of the time step
     const Executor& executor;
+    /// Called after the bodies were brought into other slots, for all else that names slots or has an entry of each.
+    std::function<void(const SlotMove&)> rearrange;
 };
 
-/// Which bodies this rank has. All ranks know all slots, so that every order is the same on all of them; a body that
-/// can move is present on one rank, its slot is a hole on the others. Fixed bodies are present on all. A world is whole
-/// or divided: whole, every rank has all bodies, and as all do the same with them all stay alike.
+/// Which bodies this rank has. A body that can move is on one rank, fixed bodies are on all. A rank has slots for the
+/// bodies that it has, for those that joints and the like name, and for some that it had before: these are holes. Slots
+/// ascend with those that the bodies have in the whole world (BodyStorage::homeOf()), so that every order is the same
+/// on all ranks. A world is whole or divided: whole, every rank has all bodies, and as all do the same with them all
+/// stay alike.
 ///
 /// Bodies go in groups (NearGroups): whose detection may find a contact are on the same rank before it looks. So a step
 /// needs no message after that, and every batch is where all its bodies are.
@@ -68,29 +75,52 @@ class SharedBodies {
         return endOf(joint) == Joint::world ? ranks_.rank() == 0 : hasJoint(bodies, joint);
     }
 
+    /// Divides a world that has no bodies yet: those that are added until the next settle() are dealt out.
+    /// @param places where they will be [m, W], the same on all ranks
+    void deal(BodyStorage& bodies, std::vector<Vec3> places);
+    /// Whether bodies are being dealt out.
+    bool isDealing() const { return is_dealing_; }
+    /// Leaves a body that was just added on all ranks to one of them, if it can move. @param place of it [m, W]
+    void dealOut(BodyStorage& bodies, BodyIndex i, const Vec3& place);
+
     /// Brings the bodies to where they belong, before a detection. If the world is whole it is divided afterwards.
-    /// @return whether bodies left or came
-    bool settle(const DealtOut& world);
+    /// The layout of the bodies changes if any left or came.
+    void settle(const DealtOut& world);
     /// Makes a divided world whole: all ranks have all bodies, with the contacts of the last step.
     void gather(const DealtOut& world);
 
   private:
+    /// Stands for no rank.
+    static constexpr std::uint32_t no_rank = UINT32_MAX;
+
+    void endDealing(const DealtOut& world);
     void divide(const DealtOut& world);
-    bool moveHouse(const DealtOut& world);
+    void moveHouse(const DealtOut& world);
     bool isDue(const DealtOut& world);
     void coverSpeed();
-    Bounds reachOf(const DealtOut& world, BodyIndex i);
+    Bounds reachOf(const DealtOut& world, BodyIndex i) const;
     void coverAll(const DealtOut& world);
     void cut(const DealtOut& world);
-    void tellFrozen(BodyStorage& bodies);
+    void tellFrozen(const DealtOut& world);
     void leave(BodyStorage& bodies, BodyIndex i) const;
+    void listSolids(const BodyStorage& bodies);
+    void takeHomes(const DealtOut& world, std::vector<BodyIndex> homes);
+    void addHomes(const DealtOut& world, std::vector<BodyIndex> homes);
+    void dropVacant(const DealtOut& world, std::size_t most);
+    bool isVacant(const BodyStorage& bodies, BodyIndex i) const {
+        return bodies.kind[i] == BodyKind::hole && kind_[i] == BodyKind::dynamic && stays_[i] == 0;
+    }
+    void packWhole(std::vector<std::byte>& message, const BodyStorage& bodies, BodyIndex i) const;
+    void unpackWhole(Unpacker& in, BodyStorage& bodies, BodyIndex i);
     void packResident(std::vector<std::byte>& message, const DealtOut& world, BodyIndex i) const;
     BodyIndex unpackResident(Unpacker& in, const DealtOut& world);
+    static void packNamed(std::vector<std::byte>& message, const BodyStorage& bodies, Contact contact);
     NearGroupsInput groupsInput(const DealtOut& world) const;
     bool mayHaveLeft(const BodyStorage& bodies, BodyIndex i) const;
     void findOwners(const DealtOut& world);
-    int ownerOf(const DealtOut& world, BodyIndex group) const;
+    int ownerOf(BodyIndex name, const Vec3& place, std::int64_t step) const;
     bool moveAway(const DealtOut& world, Ranks::Messages& out);
+    void makeRoom(const DealtOut& world, const Ranks::Messages& in);
     void takeIn(const DealtOut& world, const Ranks::Messages& in);
     BodyIndex endOf(const Joint& joint) const;
     std::uint32_t holderOf(const Contact& contact) const;
@@ -104,14 +134,17 @@ class SharedBodies {
     Ranks& ranks_;
     Partition partition_;
     bool whole_ = true;
+    bool is_dealing_ = false;
     std::vector<BodyKind> kind_;         ///< [slots] of all bodies, wherever they are
+    std::vector<std::uint8_t> stays_;    ///< [slots] 1 = is named, and so has a slot on all ranks
+    std::vector<std::uint32_t> solid_;   ///< [slots] index of the shape in solids_; no_slot = it is sent with the body
+    std::vector<Shape> solids_;          ///< shapes of bodies that can move that are not sent, the same on all ranks
     std::vector<Bounds> cover_;          ///< [slots] of own bodies: where groups were found for [m, W]
     std::vector<std::uint8_t> covered_;  ///< [slots] 1 = has a cover
     bool covers_anew_ = false;           ///< covers are for another speed than before
     double fastest_ = 0;                 ///< [m/s]
     double covered_speed_ = 0;           ///< that covers are for: nobody is followed out of them [m/s]
     std::vector<std::uint32_t> owner_;   ///< [slots] of own bodies: where they go
-    std::vector<BodyAhead> ahead_;       ///< [slots] kept memory
     std::vector<std::uint8_t> left_;     ///< [slots] 1 = went to another rank in this step
     std::vector<BodyIndex> came_;        ///< in this step
     std::vector<Contact> contacts_;      ///< of those, sorted by (a, b)

@@ -41,6 +41,72 @@ std::vector<BodyPair> tiedBodies(const WorldState& world) {
     return tied;
 }
 
+/// Calls visit(slot) for all slots that lasting things name, those of joints and springs that are gone as well.
+template <class Visit>
+void forNamed(WorldState& world, const Visit& visit) {
+    for (Joint& joint : world.joints) {
+        visit(joint.a);
+        visit(joint.b);
+    }
+    for (Spring& spring : world.springs) {
+        visit(spring.a);
+        visit(spring.b);
+    }
+    for (DrivenBody& driven : world.driven) visit(driven.body);
+}
+
+std::vector<BodyIndex> namedBodies(WorldState& world) {
+    std::vector<BodyIndex> named;
+    const auto add = [&](BodyIndex i) {
+        if (i < world.bodies.slots()) named.push_back(i);
+    };
+    forNamed(world, add);
+    for (const PairException& exception : world.bodies.filter.exceptions()) {
+        add(exception.a);
+        add(exception.b);
+    }
+    return named;
+}
+
+/// Brings all that names slots or has an entry of each to where they are now, but for what the rest of the step makes
+/// anew.
+void rearrangeAll(WorldState& world, const SlotMove& move) {
+    StepData& data = world.data;
+    forNamed(world, [&](BodyIndex& slot) { slot = move(slot); });
+    world.ties.forget();
+    data.pairs.rearrange(move);
+    for (Contact& contact : data.contacts) {
+        contact.a = move(contact.a);
+        contact.b = move(contact.b);
+    }
+    rearrange(data.before.position, move, Vec3::Zero());
+    rearrange(data.carried, move, Carried::not_at_all);
+    rearrange(world.events.asleep_before, move, 0);
+    // Of a body that was added after the last step nothing is known; one that comes is the same as in the last step.
+    rearrange(data.generation, move, 0);
+}
+
+/// Everything of a world that is dealt out.
+DealtOut dealtOut(WorldState& world, std::vector<BodyPair>& tied, const DetectionRange& range) {
+    StepData& data = world.data;
+    return {.bodies = world.bodies,
+            .pairs = data.pairs,
+            .contacts = data.contacts,
+            .joints = world.joints,
+            .named = {},
+            .begun = nullptr,
+            .tied = tied,
+            .search = world.broad_phase,
+            .range = range,
+            .fastest = data.fastest,
+            .step = world.steps,
+            .executor = world.executor,
+            .rearrange = [&world, &tied](const SlotMove& move) {
+                rearrangeAll(world, move);
+                for (BodyPair& pair : tied) pair = {move(pair.a), move(pair.b)};
+            }};
+}
+
 void packFault(std::vector<std::byte>& message, const FaultInfo& fault) {
     pack(message, fault.body);
     pack(message, fault.step);
@@ -97,15 +163,26 @@ void uniteReports(WorldState& world) {
 
 void settleShared(WorldState& world, const DetectionRange& range, bool flown) {
     if (world.shared == nullptr) return;
-    const std::vector<BodyPair> tied = tiedBodies(world);
-    std::span<Vec3> begun;
-    if (flown && world.settings.integration.exact_flight) begun = world.data.before.position;
     StepData& data = world.data;
-    const bool changed = world.shared->settle({world.bodies, data.pairs, data.contacts, world.joints, begun, tied,
-                                               range, data.fastest, world.steps, world.executor});
-    data.fastest = world.shared->fastest();
-    if (!changed) return;
+    SharedBodies& shared = *world.shared;
+    const bool was_whole = shared.isWhole();
+    std::vector<BodyPair> tied = tiedBodies(world);
+    DealtOut dealt = dealtOut(world, tied, range);
+    const std::vector<BodyIndex> named = was_whole ? namedBodies(world) : std::vector<BodyIndex>();
+    dealt.named = named;
+    if (flown && world.settings.integration.exact_flight) dealt.begun = &data.before.position;
+    const std::uint64_t layout = world.bodies.layoutVersion();
+    shared.settle(dealt);
+    data.fastest = shared.fastest();
+    if (world.bodies.layoutVersion() == layout) return;
+    // In a divided world nobody was added or removed since the last step.
+    if (!was_whole) data.generation.assign(world.bodies.generation.begin(), world.bodies.generation.end());
     prepareJoints(world);
+    if (!flown && world.settings.diagnostics.diagnostics) {
+        // Velocities are still those of the last point.
+        data.measured.v.assign(world.bodies.v.begin(), world.bodies.v.end());
+        data.measured.w.assign(world.bodies.w.begin(), world.bodies.w.end());
+    }
     if (world.events.level == EventLevel::none) return;
     // Nobody fell asleep in this step yet, so whoever came asleep was so before.
     for (BodyIndex i = 0; i < world.bodies.slots(); ++i) world.events.asleep_before[i] |= world.bodies.asleep[i];
@@ -114,10 +191,18 @@ void settleShared(WorldState& world, const DetectionRange& range, bool flown) {
 void gatherShared(WorldState& world) {
     if (world.shared == nullptr || world.shared->isWhole()) return;
     StepData& data = world.data;
-    world.shared->gather(
-        {world.bodies, data.pairs, data.contacts, world.joints, {}, {}, {}, 0, world.steps, world.executor});
-    gatherReports(world);
-    uniteReports(world);
+    std::vector<BodyPair> tied;
+    const DetectionRange range;
+    const bool was_dealing = isDealing(world);
+    world.shared->gather(dealtOut(world, tied, range));
+    if (was_dealing) {
+        // No step was made yet.
+        world.dealt_extents = {};
+    } else {
+        data.generation.assign(world.bodies.generation.begin(), world.bodies.generation.end());
+        gatherReports(world);
+        uniteReports(world);
+    }
     world.lasting.reset();
     ++world.places_version;
 }
@@ -127,6 +212,17 @@ void unite(WorldState& world) {
     std::ranges::stable_sort(world.data.contacts, {}, [](const Contact& c) { return BodyPair{c.a, c.b}; });
     uniteReports(world);
     world.data.pairs.adopt(world.data.contacts);
+}
+
+bool isDealing(const WorldState& world) {
+    return world.shared != nullptr && world.shared->isDealing();
+}
+
+bool isSoOnAny(const WorldState& world, bool is_so_here) {
+    if (world.shared == nullptr || world.shared->isWhole()) return is_so_here;
+    const std::vector<std::uint8_t> all =
+        gatherAll(world.shared->ranks(), static_cast<std::uint8_t>(is_so_here ? 1 : 0));
+    return std::ranges::find(all, 1) != all.end();
 }
 
 void requireWhole(const WorldState& world, std::string_view call) {

@@ -30,10 +30,10 @@ Event pairEvent(const WorldState& world, std::span<const Contact> contacts) {
 
 /// The pairs that touched at the end of the last step.
 void listTouching(const WorldState& world, std::vector<Touching>& touching) {
-    const std::vector<std::uint32_t>& generation = world.data.generation;
+    const auto idOf = [&](BodyIndex i) { return BodyId{world.bodies.homeOf(i), world.data.generation[i]}; };
     touching.clear();
     for (const ContactPair& pair : world.data.pairs.pairs()) {
-        if (pair.touches()) touching.push_back({{pair.a, generation[pair.a]}, {pair.b, generation[pair.b]}});
+        if (pair.touches()) touching.push_back({idOf(pair.a), idOf(pair.b)});
     }
 }
 

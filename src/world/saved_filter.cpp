@@ -6,7 +6,8 @@
 
 namespace cairn {
 
-void saveFilter(const PairFilter& filter, ByteWriter& out) {
+void saveFilter(const BodyStorage& bodies, ByteWriter& out) {
+    const PairFilter& filter = bodies.filter;
     const auto count = static_cast<std::uint32_t>(filter.groups().size());
     out.put(count);
     for (const std::string& name : filter.groups()) out.putText(name);
@@ -16,8 +17,8 @@ void saveFilter(const PairFilter& filter, ByteWriter& out) {
         }
     }
     saveList(out, filter.exceptions(), [&](const PairException& exception) {
-        out.put(exception.a);
-        out.put(exception.b);
+        out.put(bodies.homeOf(exception.a));
+        out.put(bodies.homeOf(exception.b));
         out.put(exception.touch);
     });
 }

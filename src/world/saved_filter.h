@@ -9,7 +9,7 @@
 
 namespace cairn {
 
-void saveFilter(const PairFilter& filter, ByteWriter& out);
+void saveFilter(const BodyStorage& bodies, ByteWriter& out);
 /// @pre the bodies are loaded @throws InputError for groups or exceptions that no world has
 void loadFilter(ByteReader& in, BodyStorage& bodies);
 

@@ -104,7 +104,8 @@ bool isSound(const DrivenBody& driven, const BodyStorage& bodies) {
 }  // namespace
 
 void saveMotions(const WorldState& world, ByteWriter& out) {
-    saveList(out, world.driven, [&](const DrivenBody& driven) {
+    saveList(out, world.driven, [&](DrivenBody driven) {
+        driven.body = world.bodies.homeOf(driven.body);
         drivenFields(out, driven);
         saveMotion(driven.curve->motion(), out);
     });

@@ -254,8 +254,23 @@ void loadBatches(ByteReader& in, StepData& data) {
 
 }  // namespace
 
-void saveContacts(const std::vector<Contact>& contacts, ByteWriter& out) {
-    saveList(out, contacts, [&](const Contact& contact) { contactFields(out, contact); });
+namespace {
+
+/// What names two bodies, with what the whole world calls them.
+template <class Pair>
+Pair withHomes(const BodyStorage& bodies, Pair pair) {
+    pair.a = bodies.homeOf(pair.a);
+    pair.b = bodies.homeOf(pair.b);
+    return pair;
+}
+
+}  // namespace
+
+void saveContacts(const BodyStorage& bodies, const std::vector<Contact>& contacts, ByteWriter& out) {
+    saveList(out, contacts, [&](const Contact& contact) {
+        const Contact named = withHomes(bodies, contact);
+        contactFields(out, named);
+    });
 }
 
 void loadContacts(ByteReader& in, std::size_t slots, std::vector<Contact>& contacts) {
@@ -332,10 +347,17 @@ std::unique_ptr<WorldState> loadHead(ByteReader& in) {
 }
 
 void saveTies(const WorldState& world, ByteWriter& out) {
-    saveFilter(world.bodies.filter, out);
+    const BodyStorage& bodies = world.bodies;
+    saveFilter(bodies, out);
     saveMotions(world, out);
-    saveList(out, world.springs, [&](const Spring& spring) { springFields(out, spring); });
-    saveList(out, world.joints, [&](const Joint& joint) { jointFields(out, joint); });
+    saveList(out, world.springs, [&](const Spring& spring) {
+        const Spring named = withHomes(bodies, spring);
+        springFields(out, named);
+    });
+    saveList(out, world.joints, [&](const Joint& joint) {
+        const Joint named = withHomes(bodies, joint);
+        jointFields(out, named);
+    });
 }
 
 void loadTies(ByteReader& in, WorldState& world) {
@@ -350,7 +372,7 @@ void saveWorld(const WorldState& world, ByteWriter& out) {
     saveBodies(world.bodies, out);
     saveTies(world, out);
     out.putArray(std::span(world.data.generation));
-    saveContacts(world.data.contacts, out);
+    saveContacts(world.bodies, world.data.contacts, out);
     batchArrays(out, world.data.batches);
     saveSensed(world.data.sensed, out);
     statisticsFields(out, world.statistics);

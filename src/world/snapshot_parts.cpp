@@ -86,7 +86,9 @@ void saveBodiesHere(const WorldState& world, ByteWriter& out) {
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (world.shared->isTold(bodies, i)) slots.push_back(i);
     }
-    out.putArray(std::span<const BodyIndex>(slots));
+    std::vector<BodyIndex> homes;
+    for (const BodyIndex i : slots) homes.push_back(bodies.homeOf(i));
+    out.putArray(std::span<const BodyIndex>(homes));
     pickedFields(out, bodies, slots);
 }
 
@@ -114,7 +116,7 @@ void saveStep(const WorldState& world, ByteWriter& out) {
     const std::vector<std::uint32_t> joints = jointsHere(world);
     out.putArray(std::span<const std::uint32_t>(joints));
     for (const std::uint32_t j : joints) changingFields(out, world.joints[j]);
-    saveContacts(world.data.contacts, out);
+    saveContacts(world.bodies, world.data.contacts, out);
     saveSensed(world.data.sensed, out);
     statisticsFields(out, world.statistics);
     saveFaults(world.faults, out);
@@ -148,13 +150,12 @@ void savePart(const WorldState& world, ByteWriter& out) {
     placeFields(out, place);
     if (place.rank == 0) {
         saveHead(world, out);
-        out.put(std::uint64_t{world.bodies.slots()});
+        out.put(std::uint64_t{world.bodies.wholeSlots()});
         out.put(world.bodies.nextNumber());
     }
     saveBodiesHere(world, out);
     if (place.rank == 0) {
         saveTies(world, out);
-        out.putArray(std::span(world.data.generation));
         saveEvents(world.events, out);
     }
     saveStep(world, out);
@@ -180,7 +181,8 @@ std::unique_ptr<WorldState> loadParts(std::span<ByteReader> parts) {
     loadBodies(parts, slots, world->bodies);
     completeBodies(head, world->materials.all().size(), next_number, world->bodies);
     loadTies(head, *world);
-    head.getArray(world->data.generation);
+    // Parts are of the end of a step.
+    world->data.generation.assign(world->bodies.generation.begin(), world->bodies.generation.end());
     loadEvents(head, world->events);
     checkWorld(head, *world);
     for (ByteReader& part : parts) loadStep(part, *world);

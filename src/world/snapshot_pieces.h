@@ -21,7 +21,8 @@ void saveTies(const WorldState& world, ByteWriter& out);
 /// @pre the bodies are complete
 void loadTies(ByteReader& in, WorldState& world);
 
-void saveContacts(const std::vector<Contact>& contacts, ByteWriter& out);
+/// @param bodies that say how the whole world calls the slots that contacts name
+void saveContacts(const BodyStorage& bodies, const std::vector<Contact>& contacts, ByteWriter& out);
 /// @param slots that contacts may name @param contacts gets them, and must be sorted by (a, b)
 void loadContacts(ByteReader& in, std::size_t slots, std::vector<Contact>& contacts);
 

@@ -104,7 +104,7 @@ bool grantLaunched(WorldState& world) {
     for (BodyIndex i = 0; i < b.slots() && !any; ++i) {
         any = b.kind[i] == BodyKind::dynamic && b.asleep[i] == 0 && movesFar(b, range, i, b.v[i], b.w[i]);
     }
-    if (!any) return false;
+    if (!isSoOnAny(world, any)) return false;
     beginDetection(world, range, false);
     detect(world, range);
     batchContacts(world);

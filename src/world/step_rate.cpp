@@ -55,8 +55,9 @@ Settings withKnownSteps(const Settings& settings, int exponent) {
 
 std::optional<int> stepExponentOf(const WorldState& world) {
     const BodyStorage& bodies = world.bodies;
-    std::vector<double> extents;
-    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+    // Of those that were dealt out a rank has a part.
+    std::vector<double> extents = world.dealt_extents;
+    for (BodyIndex i = 0; i < bodies.slots() && world.dealt_extents.empty(); ++i) {
         if (bodies.kind[i] == BodyKind::dynamic) extents.push_back(middleExtent(bodies.shape[i]));
     }
     if (extents.empty()) return std::nullopt;
@@ -70,6 +71,7 @@ void settleSteps(WorldState& world) {
     if (!exponent) return;
     world.sized = true;
     world.step_exponent = *exponent;
+    world.dealt_extents = {};
     world.applySettings(withKnownSteps(world.settings, *exponent));
 }
 

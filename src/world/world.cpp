@@ -107,7 +107,7 @@ Vec3 World::globalAcceleration() const {
 }
 
 void World::step() {
-    if (!isDivided()) settleSteps(*state_);
+    if (!isDivided() || isDealing(*state_)) settleSteps(*state_);
     stepWorld(*state_);
 }
 

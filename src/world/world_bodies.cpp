@@ -6,6 +6,7 @@
 #include "activity/sleeping.h"
 #include "cairn/world.h"
 #include "geometry/body_mass.h"
+#include "sharing/body_records.h"
 #include "world/couplings.h"
 #include "world/division.h"
 #include "world/limits.h"
@@ -13,6 +14,7 @@
 #include "world/motions.h"
 #include "world/quarantine.h"
 #include "world/requirements.h"
+#include "world/step_rate.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -121,6 +123,22 @@ void setMass(BodyStorage& bodies, BodyIndex i, const BodyDescription& d, double 
     bodies.r_min[i] = smallestRadius(bodies.shape[i]);
 }
 
+/// @throws InputError for what a rank that does not get the body would have to know
+void requireDealable(const BodyDescription& d) {
+    if (d.fixed) return;
+    if (!isSent(d.shape)) {
+        throw InputError(
+            fmt::format("a {} that moves cannot be dealt out to ranks, only balls, boxes, capsules and "
+                        "cylinders can: add the bodies before World::share(), without places",
+                        shapeName(d.shape)));
+    }
+    if (!d.locked.empty()) {
+        throw InputError(
+            "a body that is locked cannot be dealt out to ranks: add the bodies before World::share(), "
+            "without places");
+    }
+}
+
 /// The shape as the world keeps it: parts of compounds with unit quaternions, and a tree over them.
 Shape normalised(const Shape& shape) {
     Shape result = shape;
@@ -134,8 +152,12 @@ Shape normalised(const Shape& shape) {
 }  // namespace
 
 BodyId World::addBody(const BodyDescription& d) {
-    requireWhole(*state_, "World::addBody");
     WorldState& w = *state_;
+    if (isDealing(w)) {
+        requireDealable(d);
+    } else {
+        requireWhole(w, "World::addBody");
+    }
     validateDescription(d, w.materials);
     const Quat orientation = requireRotation(d.pose.orientation);
     BodyStorage& b = w.bodies;
@@ -143,7 +165,7 @@ BodyId World::addBody(const BodyDescription& d) {
     const std::uint8_t locked = lockMaskOf(d.locked);
     if (locked != 0 && d.fixed) throw InputError("a fixed body moves along no axis; leave locked out");
     auto curve = d.motion ? std::make_shared<const MotionCurve>(*d.motion) : nullptr;
-    requireRoom(b.count());
+    requireRoom(b.wholeSlots() - b.slots() + b.count());
     w.lasting.reset();
     ++w.places_version;
     const BodyIndex i = b.allocate(d.fixed ? BodyKind::fixed : BodyKind::dynamic);
@@ -177,7 +199,12 @@ BodyId World::addBody(const BodyDescription& d) {
         b.asleep[i] = d.asleep ? 1 : 0;
     }
     if (curve != nullptr) addLaw(w, {i, w.time, b.shapePose(i), d.pivot, std::move(curve)});
-    return b.idOf(i);
+    const BodyId id = b.idOf(i);
+    if (isDealing(w)) {
+        if (!d.fixed) w.dealt_extents.push_back(middleExtent(b.shape[i]));
+        w.shared->dealOut(b, i, d.pose.position);
+    }
+    return id;
 }
 
 void World::removeBody(BodyId id) {
@@ -262,6 +289,7 @@ std::uint64_t World::layoutVersion() const noexcept {
 }
 
 BodyViews World::bodyViews() const {
+    requireWhole(*state_, "World::bodyViews");
     const BodyStorage& b = state_->bodies;
     const auto view = [&](const auto& field) { return BodyView(field.share(), field.size()); };
     return {.kind = view(b.kind),
@@ -275,6 +303,7 @@ BodyViews World::bodyViews() const {
 }
 
 void World::posesTo(std::vector<Pose>& poses) const {
+    requireWhole(*state_, "World::posesTo");
     const BodyStorage& b = state_->bodies;
     poses.resize(b.slots());
     for (BodyIndex i = 0; i < b.slots(); ++i) poses[i] = b.shapePose(i);

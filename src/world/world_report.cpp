@@ -90,8 +90,8 @@ void World::contactsTo(std::vector<ContactInfo>& infos) const {
     infos.reserve(data.contacts.size());
     for (std::size_t i = 0; i < data.contacts.size(); ++i) {
         const Contact& c = data.contacts[i];
-        const BodyId a{c.a, data.generation[c.a]};
-        const BodyId b{c.b, data.generation[c.b]};
+        const BodyId a{state_->bodies.homeOf(c.a), data.generation[c.a]};
+        const BodyId b{state_->bodies.homeOf(c.b), data.generation[c.b]};
         if (!contains(a) || !contains(b)) continue;
         infos.push_back(
             {a, b, c.point, c.normal, c.distance, c.impulse, c.angular_impulse, data.batches.batch_of_contact[i]});
@@ -105,7 +105,7 @@ std::vector<BatchInfo> World::batches() const {
         const BatchView batch = data.batches[i];
         infos[i].contacts = batch.contacts.size();
         for (const BodyIndex body : batch.bodies) {
-            const BodyId id{body, data.generation[body]};
+            const BodyId id{state_->bodies.homeOf(body), data.generation[body]};
             if (contains(id)) infos[i].bodies.push_back(id);
         }
     }
@@ -145,7 +145,8 @@ BodyTrace World::trace(BodyId id) const {
     if (i < data.pairs.bounds().size()) {
         trace.bounds_lower = data.pairs.bounds()[i].lower;
         trace.bounds_upper = data.pairs.bounds()[i].upper;
-        trace.level = state_->broad_phase.level(i);
+        // Ranks search otherwise between the steps' own searches.
+        if (state_->shared == nullptr) trace.level = state_->broad_phase.level(i);
     }
     if (i < state_->trace.correction.size()) trace.correction = state_->trace.correction[i];
     if (i < state_->trace.shock_stage.size()) trace.shock_stage = state_->trace.shock_stage[i];

@@ -167,6 +167,8 @@ struct WorldState {
 
     std::unique_ptr<SharedBodies> shared;  ///< with other ranks; null = the world is on one
 
+    std::vector<double>
+        dealt_extents;      ///< middle ones of all bodies that move and were dealt out, until the first step
     bool launched = false;  ///< a user gave a body a velocity or a place since the last step
     std::int64_t steps = 0;
     double time = 0;                  ///< [s]

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "body/material_table.h"
 
 namespace cairn {
@@ -88,6 +92,64 @@ TEST(MaterialTable, BadPropertiesAreRefusedWithTheReason) {
     EXPECT_THROW(table.setDefault({.restitution = 0, .static_friction = 0.2, .kinetic_friction = 0.3}), InputError);
     EXPECT_THROW(table.setDefault({.static_friction = -1, .kinetic_friction = -1}), InputError);
     EXPECT_THROW(table.setPair(MaterialId{0}, MaterialId{5}, {}), InputError);
+}
+
+/// Entries of slots that came and went.
+std::vector<std::string> rearranged(std::vector<std::string> values, const SlotMove& move) {
+    FieldArray<std::string> field;
+    field.assign(values.begin(), values.end());
+    rearrange(values, move, "new");
+    rearrange(field, move, "new");
+    EXPECT_TRUE(std::ranges::equal(values, field));
+    return values;
+}
+
+TEST(SlotMove, BringsEntriesToWhereTheirSlotsAre) {
+    using Texts = std::vector<std::string>;
+    const SlotMove come{{0, no_slot, 1, 2, no_slot, 3}, {0, 2, 3, 5}};
+    EXPECT_EQ(rearranged({"a", "b", "c", "d"}, come), (Texts{"a", "new", "b", "c", "new", "d"}));
+    EXPECT_EQ(rearranged({"a", "b"}, come), (Texts{"a", "new", "b", "new", "new", "new"})) << "of slots that are newer";
+    EXPECT_EQ(rearranged({}, come), Texts{}) << "an array that is not used";
+    EXPECT_EQ(rearranged({}, {{no_slot, no_slot}, {}}), (Texts{"new", "new"}));
+    EXPECT_EQ(rearranged({"a", "b", "c", "d"}, {{0, 2, 3}, {0, no_slot, 1, 2}}), (Texts{"a", "c", "d"}));
+    EXPECT_EQ(rearranged({"a", "b", "c", "d"}, {{3}, {no_slot, no_slot, no_slot, 0}}), Texts{"d"});
+    EXPECT_EQ(rearranged({"a", "b", "c"}, {{0, 2, 3}, {0, no_slot, 1, 2}}), (Texts{"a", "c", "new"}));
+    EXPECT_EQ(come(3), 5U);
+    EXPECT_EQ(come(UINT32_MAX), UINT32_MAX);
+}
+
+TEST(BodyStorage, OfAPartNamesBodiesAsTheWholeWorldDoes) {
+    BodyStorage bodies;
+    std::vector<BodyId> ids;
+    for (int i = 0; i < 6; ++i) {
+        ids.push_back(bodies.idOf(bodies.allocate(BodyKind::dynamic)));
+        bodies.position[static_cast<std::size_t>(i)].x() = i;
+    }
+    bodies.filter.setPair(1, 4, Touch::never);
+    bodies.beginPart();
+    for (const BodyIndex i : {0, 2, 3, 5}) bodies.kind[i] = BodyKind::hole;
+    const SlotMove dropped = bodies.takeHomes({1, 3, 4});
+    EXPECT_EQ(dropped.from, (std::vector<BodyIndex>{1, 3, 4}));
+    EXPECT_EQ(dropped.to, (std::vector<BodyIndex>{no_slot, 0, no_slot, 1, 2, no_slot}));
+    EXPECT_EQ(bodies.slots(), 3U);
+    EXPECT_EQ(bodies.wholeSlots(), 6U);
+    EXPECT_EQ(bodies.count(), 2U);
+    EXPECT_EQ(bodies.position[2].x(), 4);
+    EXPECT_EQ(bodies.idOf(2), ids[4]);
+    EXPECT_EQ(bodies.indexOf(ids[4]), 2U);
+    EXPECT_EQ(bodies.slotOf(5), no_slot);
+    EXPECT_EQ(bodies.filter.ofPair(0, 2), Touch::never);
+    EXPECT_TRUE(bodies.contains(ids[1]));
+    for (const std::size_t elsewhere : {0, 3, 5}) {
+        EXPECT_FALSE(bodies.contains(ids[elsewhere]));
+        EXPECT_THROW(bodies.indexOf(ids[elsewhere]), StaleIdError);
+    }
+    const SlotMove added = bodies.takeHomes({0, 1, 2, 3, 4, 5});
+    EXPECT_EQ(added.from, (std::vector<BodyIndex>{no_slot, 0, no_slot, 1, 2, no_slot}));
+    EXPECT_EQ(bodies.kind[0], BodyKind::hole);
+    bodies.endPart();
+    EXPECT_EQ(bodies.position[4].x(), 4);
+    EXPECT_EQ(bodies.filter.ofPair(1, 4), Touch::never);
 }
 
 }  // namespace

@@ -7,37 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "cairn/ranks.h"
-#include "cairn/scene.h"
+#include "shared_worlds.h"
 
 namespace cairn {
 namespace {
-
-constexpr Partition by_hash{.kind = PartitionKind::hash};
-constexpr Partition restless{.kind = PartitionKind::hash, .restless = true};
-
-/// Lets a scene run so many steps, alone and on three ranks, and expects the same states.
-void expectSameSteps(const Scene& scene, int steps, const Partition& partition) {
-    SceneRun alone(scene, settingsFor(scene));
-    std::vector<std::uint64_t> hashes;
-    for (int i = 0; i < steps; ++i) {
-        alone.step();
-        hashes.push_back(alone.world().stateHash());
-    }
-    runRanks(3, [&](Ranks& ranks) {
-        SceneRun run(scene, settingsFor(scene));
-        run.world().share(ranks, partition);
-        for (int i = 0; i < steps; ++i) {
-            run.step();
-            ASSERT_EQ(sumOverRanks(ranks, run.world().stateHash()), hashes[static_cast<std::size_t>(i)]) << i;
-        }
-        run.world().gather();
-        EXPECT_EQ(run.world().kineticEnergy(), alone.world().kineticEnergy());
-        EXPECT_EQ(run.world().potentialEnergy(), alone.world().potentialEnergy());
-        EXPECT_TRUE(std::ranges::equal(run.world().sensed(), alone.world().sensed()));
-        EXPECT_TRUE(run.world().save() == alone.world().save());
-    });
-}
 
 class LawsAndMachines : public testing::TestWithParam<const char*> {};
 
@@ -49,30 +22,6 @@ TEST_P(LawsAndMachines, GiveTheSameStatesOnAnyNumberOfRanks) {
 // An earthquake, a turning drum with a belt, a sensor, and drives of joints.
 INSTANTIATE_TEST_SUITE_P(Scenes, LawsAndMachines,
                          testing::Values("shake_table", "drum", "rockfall", "excavator", "cradle_swing:5:2"));
-
-SceneBody ballAt(const Vec3& position) {
-    SceneBody ball;
-    ball.shape = Sphere{0.1};
-    ball.material = "stone";
-    ball.position = position;
-    return ball;
-}
-
-/// Balls over a plane, in a row.
-Scene row(int count) {
-    Scene scene;
-    scene.name = "row";
-    scene.duration = 1;
-    scene.gravity = {0, 0, -9.81};
-    scene.materials = {{"stone", 2500}};
-    SceneBody ground;
-    ground.shape = HalfSpace{Vec3::UnitZ(), 0};
-    ground.material = "stone";
-    ground.fixed = true;
-    scene.bodies = {ground};
-    for (int i = 0; i < count; ++i) scene.bodies.push_back(ballAt({0.5 * i, 0, 0.1 + 0.05 * i}));
-    return scene;
-}
 
 TEST(SharedWorld, KeepsWhatSpringsConnectTogether) {
     Scene scene = row(8);
@@ -122,6 +71,24 @@ TEST(SharedWorld, HasBodiesOnOneRankEach) {
         here += own;
     });
     EXPECT_EQ(here, 12);
+}
+
+TEST(SharedWorld, TakesNamesFiltersAndShapesOfAllKindsAlong) {
+    Scene scene = row(6);
+    const ConvexHull wedge({{0, 0, 0}, {0.4, 0, 0}, {0, 0.4, 0}, {0, 0, 0.4}});
+    const Compound dumbbell{{{.shape = Sphere{0.1}, .pose = {{-0.2, 0, 0}, Quat::Identity()}},
+                             {.shape = Sphere{0.15}, .pose = {{0.2, 0, 0}, Quat::Identity()}}}};
+    double x = 0;
+    for (const Shape& shape : {Shape(Box{{0.2, 0.3, 0.4}}), Shape(Capsule{0.1, 0.3}), Shape(Cylinder{0.1, 0.3}),
+                               Shape(wedge), Shape(wedge), Shape(dumbbell), Shape(dumbbell)}) {
+        SceneBody body = ballAt({x += 0.4, 0.1, 0.6});
+        body.shape = shape;
+        body.name = "body at " + std::to_string(x);
+        body.user_data = scene.bodies.size();
+        scene.bodies.push_back(body);
+    }
+    scene.filters.exceptions = {{3, 8, Touch::never}, {7, 12, Touch::never}};
+    for (const Partition& partition : {Partition{}, by_hash, restless}) expectSameSteps(scene, 120, partition);
 }
 
 /// What a user does to a world in the middle of a run.
@@ -370,17 +337,6 @@ TEST(SharedWorld, GoesOnFromThePartsOfAllRanksOnOthers) {
         parts[1].bytes.pop_back();
         EXPECT_THROW(SceneRun::restoreParts(parts), InputError);
     }
-}
-
-/// The text of the error of a call.
-template <class Call>
-std::string errorOf(const Call& call) {
-    try {
-        call();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "no error";
 }
 
 TEST(SharedWorld, RefusesWhatItCannotDo) {

@@ -7,7 +7,9 @@
 #include <cstdlib>
 #include <new>
 #include <string>
+#include <vector>
 
+#include "cairn/ranks.h"
 #include "cairn/scene.h"
 
 namespace {
@@ -197,6 +199,39 @@ TEST(Memory, PouringAndRemovingForeverNeedsNoMore) {
     pour(2400);
     EXPECT_LT(static_cast<double>(heap().bytes), 1.1 * static_cast<double>(before));
     EXPECT_LE(world.bodies().back().index, 110U) << "slots are used again";
+}
+
+Vec3 placeInGas(int i) {
+    constexpr int edge = 30;
+    return 2.0 * Vec3(i % edge, i / edge % edge, i / edge / edge);
+}
+
+/// Largest number of bytes in use while so many ranks share a gas of balls, from its first body on.
+std::int64_t peakOfGas(int ranks, int balls) {
+    std::vector<Vec3> places;
+    for (int i = 0; i < balls; ++i) places.push_back(placeInGas(i));
+    const std::int64_t before = heap().bytes;
+    heap().peak = before;
+    runRanks(ranks, [&](Ranks& own) {
+        World world;
+        const MaterialId oak = world.addMaterial({"oak", 800});
+        world.share(own, {}, places);
+        for (int i = 0; i < balls; ++i) {
+            const Pose pose{placeInGas(i), Quat::Identity()};
+            const Vec3 velocity(i * 7919 % 101 - 50, i * 104729 % 101 - 50, i * 7907 % 101 - 50);
+            world.addBody({.shape = Sphere{0.25}, .material = oak, .pose = pose, .linear_velocity = velocity / 50});
+        }
+        for (int i = 0; i < 20; ++i) world.step();
+    });
+    return heap().peak - before;
+}
+
+TEST(Memory, OfRanksThatDealOutAGasIsLittleMoreThanOfOne) {
+    constexpr int balls = 27000;
+    const std::int64_t alone = peakOfGas(1, balls);
+    const std::int64_t together = peakOfGas(4, balls);
+    RecordProperty("percent_of_one_rank", static_cast<int>(100 * together / alone));
+    EXPECT_LT(together, alone * 13 / 10);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace cairn {
 namespace {
 
-TEST(BodyRecords, TakeAlongWhatOthersDoNotKnow) {
+TEST(BodyRecords, TakeAlongAllFields) {
     BodyStorage one;
     BodyStorage other;
     for (BodyStorage* bodies : {&one, &other}) {
@@ -21,6 +21,8 @@ TEST(BodyRecords, TakeAlongWhatOthersDoNotKnow) {
     one.constant_force[1] = {1, 1, 1};
     one.user_data[1] = 77;
     one.mass[1] = 3;
+    one.name[1] = "ball";
+    one.shape[1] = Capsule{0.25, 2};
     std::vector<std::byte> message;
     packBody(message, one, 1);
     pack(message, 12);
@@ -35,7 +37,27 @@ TEST(BodyRecords, TakeAlongWhatOthersDoNotKnow) {
     EXPECT_EQ(other.motion[1], 0.5);
     EXPECT_EQ(other.constant_force[1], Vec3(1, 1, 1));
     EXPECT_EQ(other.user_data[1], 77U);
-    EXPECT_EQ(other.mass[1], 0) << "known since the body was added";
+    EXPECT_EQ(other.mass[1], 3);
+    EXPECT_EQ(other.name[1], "ball");
+    EXPECT_EQ(std::get<Capsule>(other.shape[1]).radius, 0.25);
+    EXPECT_EQ(std::get<Capsule>(other.shape[1]).length, 2);
+}
+
+TEST(BodyRecords, LeaveShapesOfManyNumbersToTheReceiver) {
+    BodyStorage one;
+    one.allocate(BodyKind::dynamic);
+    one.shape[0] = ConvexHull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+    EXPECT_FALSE(isSent(one.shape[0]));
+    EXPECT_TRUE(isSent(Box{}));
+    std::vector<std::byte> message;
+    packBody(message, one, 0);
+    BodyStorage other;
+    other.allocate(BodyKind::dynamic);
+    other.shape[0] = one.shape[0];
+    Unpacker in(message);
+    unpackBody(in, other, 0);
+    EXPECT_TRUE(in.isAtEnd());
+    EXPECT_TRUE(std::holds_alternative<ConvexHull>(other.shape[0]));
 }
 
 TEST(BodyRecords, ContactsAreThoseOfSnapshots) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "broad_phase/hash_grids.h"
+
 namespace cairn {
 namespace {
 
@@ -12,6 +14,8 @@ struct Row {
     std::vector<Vec3> position;
     std::vector<Contact> contacts;
     std::vector<BodyPair> tied;
+    std::vector<BodyIndex> home;  ///< of part of them; empty = all are there
+    HashGrids search;
     Executor executor;
     NearGroups groups;
 
@@ -23,7 +27,7 @@ struct Row {
             cover.push_back({Vec3(x - 0.6, -1, -1), Vec3(x + 0.6, 1, 1)});
         }
     }
-    NearGroupsInput input() const { return {kind, cover, position, contacts, tied}; }
+    NearGroupsInput input() { return {kind, cover, position, contacts, tied, search, home}; }
     /// Leaves to this rank the bodies whose owner it is.
     void keep(const std::vector<int>& owners, int rank) {
         for (std::size_t i = 0; i < kind.size(); ++i) {
@@ -75,6 +79,29 @@ TEST(NearGroups, ReachOverRanks) {
             const BodyIndex group = row.groups.groupOf(i);
             EXPECT_EQ(group, i < 5 ? 0U : i < 7 ? 5U : 7U) << i;
             EXPECT_EQ(row.groups.middleOf(group).x(), i < 5 ? 2 : i < 7 ? 10.5 : 20.5) << i;
+        }
+    });
+}
+
+TEST(NearGroups, ReachOverRanksThatHaveSlotsOnlyOfTheirOwn) {
+    const std::vector<double> places{4, 0, 1, 2, 3, 10, 11, 20, 21};
+    const std::vector<int> owners{0, 1, 2, 0, 1, 2, 2, 1, 0};
+    runRanks(3, [&](Ranks& ranks) {
+        std::vector<double> own;
+        std::vector<BodyIndex> home;
+        for (BodyIndex i = 0; i < places.size(); ++i) {
+            if (owners[i] != ranks.rank()) continue;
+            own.push_back(places[i]);
+            home.push_back(i);
+        }
+        Row row(own);
+        row.home = home;
+        EXPECT_TRUE(row.groups.meetOthers(row.input(), row.executor, ranks));
+        row.groups.findAcross(row.input(), row.executor, ranks);
+        for (BodyIndex i = 0; i < own.size(); ++i) {
+            const BodyIndex group = row.groups.groupOf(i);
+            EXPECT_EQ(row.groups.nameOf(group), home[i] < 5 ? 0U : home[i] < 7 ? 5U : 7U) << i;
+            EXPECT_EQ(row.groups.middleOf(group).x(), home[i] < 5 ? 2 : home[i] < 7 ? 10.5 : 20.5) << i;
         }
     });
 }

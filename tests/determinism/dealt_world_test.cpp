@@ -1,0 +1,146 @@
+/// Worlds that ranks share from the start, so that none of them ever has all bodies.
+#include <gtest/gtest.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "shared_worlds.h"
+
+namespace cairn {
+namespace {
+
+BodyDescription described(const SceneBody& body, MaterialId material) {
+    BodyDescription description;
+    description.shape = body.shape;
+    description.material = material;
+    description.name = body.name;
+    description.pose = {body.position, body.orientation};
+    description.linear_velocity = body.linear_velocity;
+    description.fixed = body.fixed;
+    description.motion = body.motion;
+    return description;
+}
+
+/// Adds what falls onto ground and onto a plate that moves. @return the ids
+std::vector<BodyId> addFalling(World& world, MaterialId material, int count) {
+    std::vector<BodyId> ids;
+    const Scene scene = row(count);
+    for (SceneBody body : scene.bodies) {
+        body.name = "number " + std::to_string(ids.size());
+        if (ids.size() % 3 == 1) body.shape = Box{{0.2, 0.3, 0.2}};
+        if (ids.size() == 5) body.linear_velocity = {40, 3, 0};
+        ids.push_back(world.addBody(described(body, material)));
+        if (ids.size() != 4) continue;
+        body.shape = Box{{0.5, 0.5, 0.05}};
+        body.fixed = true;
+        body.motion = SineMotion{.amplitude = {0, 0, 0.05}, .frequency = 1};
+        body.linear_velocity.setZero();
+        body.position.z() = 0;
+        ids.push_back(world.addBody(described(body, material)));
+    }
+    return ids;
+}
+
+TEST(DealtWorld, DealsOutBodiesThatNoRankHasAllOf) {
+    const auto begin = [](World& world) {
+        world.setGravity({0, 0, -9.81});
+        return world.addMaterial({"stone", 2500});
+    };
+    World alone(Settings::preset(Preset::performance));
+    const std::vector<BodyId> ids = addFalling(alone, begin(alone), 16);
+    std::vector<Vec3> places;
+    for (const BodyId id : ids) places.push_back(alone.pose(id).position);
+    std::vector<std::uint64_t> hashes;
+    for (int i = 0; i < 120; ++i) {
+        alone.step();
+        hashes.push_back(alone.stateHash());
+    }
+    for (const Partition& partition : {Partition{}, Partition{.kind = PartitionKind::x}, by_hash, restless}) {
+        for (const int count : {1, 3}) {
+            runRanks(count, [&](Ranks& ranks) {
+                World world(Settings::preset(Preset::performance));
+                const MaterialId material = begin(world);
+                world.share(ranks, partition, std::span(places).subspan(1));
+                EXPECT_EQ(addFalling(world, material, 16), ids);
+                for (int i = 0; i < 120; ++i) {
+                    world.step();
+                    ASSERT_EQ(sumOverRanks(ranks, world.stateHash()), hashes[static_cast<std::size_t>(i)]) << i;
+                }
+                world.gather();
+                EXPECT_TRUE(world.save() == alone.save());
+            });
+        }
+    }
+}
+
+TEST(DealtWorld, DealsOutWhatIsGatheredBeforeAStep) {
+    World alone(Settings::preset(Preset::performance));
+    addFalling(alone, alone.addMaterial({"stone", 2500}), 8);
+    runRanks(3, [&](Ranks& ranks) {
+        World world(Settings::preset(Preset::performance));
+        const MaterialId material = world.addMaterial({"stone", 2500});
+        world.share(ranks, by_hash, {});
+        addFalling(world, material, 8);
+        EXPECT_EQ(world.sums().state_hash, alone.stateHash());
+        EXPECT_LT(world.bodyCount(), 9U);
+        world.gather();
+        EXPECT_TRUE(world.save() == alone.save());
+        EXPECT_NE(world.addBody(described(ballAt({0, 9, 1}), material)), BodyId{});
+    });
+}
+
+TEST(DealtWorld, RefusesToDealOutWhatOthersWouldHaveToKnow) {
+    runRanks(2, [&](Ranks& ranks) {
+        World world(Settings::preset(Preset::performance));
+        const MaterialId material = world.addMaterial({"stone", 2500});
+        const Vec3 far(2e12, 0, 0);
+        EXPECT_NE(errorOf([&] { world.share(ranks, {}, std::span(&far, 1)); }).find("a place"), std::string::npos);
+        world.share(ranks, {}, {});
+        EXPECT_NE(errorOf([&] { world.addMaterial({"oak", 800}); }), "no error");
+        BodyDescription body = described(ballAt(Vec3::Zero()), material);
+        body.locked = {JointAlong::x};
+        EXPECT_NE(errorOf([&] { world.addBody(body); }).find("without places"), std::string::npos);
+        body.locked.clear();
+        body.shape = ConvexHull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+        EXPECT_NE(errorOf([&] { world.addBody(body); }).find("that moves cannot be dealt out"), std::string::npos);
+        body.fixed = true;
+        EXPECT_TRUE(world.contains(world.addBody(body)));
+        // A mass that nobody can reckon with fails on all ranks, and leaves a slot that the next body takes.
+        body.fixed = false;
+        body.shape = Sphere{0.1};
+        body.mass = 1e-300;
+        EXPECT_NE(errorOf([&] { world.addBody(body); }), "no error");
+        body.mass.reset();
+        EXPECT_EQ(world.addBody(body), (BodyId{1, 1}));
+        EXPECT_NE(errorOf([&] { world.share(ranks, {}, {}); }), "no error");
+        world.step();
+        EXPECT_EQ(sumOverRanks(ranks, std::uint64_t{world.bodyCount()}), 3U) << "the hull is on both ranks";
+        EXPECT_NE(errorOf([&] { world.addBody(body); }), "no error");
+    });
+}
+
+TEST(DealtWorld, DealsOutTheBodiesOfScenes) {
+    for (const char* name : {"stacks5", "heap:60"}) {
+        const Scene scene = builtInScene(name);
+        const std::size_t bodies = scene.bodies.size();
+        runRanks(3, [&](Ranks& ranks) {
+            SceneRun run(scene, settingsFor(scene), ranks, by_hash);
+            EXPECT_TRUE(run.world().isDivided());
+            EXPECT_LT(run.world().bodyCount(), bodies);
+            EXPECT_EQ(run.ids().size(), bodies);
+        });
+        for (const Partition& partition : {Partition{}, by_hash, restless}) expectSameSteps(scene, 90, partition);
+    }
+    // Others are divided by the first step.
+    const Scene chain = builtInScene("cradle_swing:5:2");
+    runRanks(2, [&](Ranks& ranks) {
+        SceneRun run(chain, settingsFor(chain), ranks);
+        EXPECT_FALSE(run.world().isDivided());
+        run.step();
+        EXPECT_TRUE(run.world().isDivided());
+    });
+}
+
+}  // namespace
+}  // namespace cairn
