@@ -14,7 +14,7 @@
 #   make soak SIMULATED=3600 WALL=3600   pour a mixed pile for so many seconds: nothing may leak, slow down or creep
 #   make thesis    repeat every benchmark of the thesis: report/index.html
 #   make validate  measure the physics against closed forms and experiments: validation/index.html
-#   make bench SUITE=peers   measure a suite (kernels, scenes, scaling, peers) and add it to bench/results
+#   make bench SUITE=peers   measure a suite (kernels, scenes, scaling, peers, rays) and add it to bench/results
 #   make results   measure the scenes and rewrite the table in README.md
 #   make format | tidy | install PREFIX=DIR | clean
 

@@ -3,47 +3,12 @@
 
 #include <algorithm>
 
+#include "bullet_shapes.h"
 #include "engine.h"
 
 namespace cairn::bench {
 
 namespace {
-
-btVector3 toBullet(const Vec3& v) {
-    return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
-}
-
-btQuaternion toBullet(const Quat& q) {
-    return {static_cast<btScalar>(q.x()), static_cast<btScalar>(q.y()), static_cast<btScalar>(q.z()),
-            static_cast<btScalar>(q.w())};
-}
-
-Vec3 fromBullet(const btVector3& v) {
-    return {v.x(), v.y(), v.z()};
-}
-
-/// Makes a shape; half-spaces keep their plane in the frame of the body.
-struct MakeShape {
-    using Pointer = std::unique_ptr<btCollisionShape>;
-
-    Pointer operator()(const Sphere& s) const {
-        return std::make_unique<btSphereShape>(static_cast<btScalar>(s.radius));
-    }
-    Pointer operator()(const Box& b) const {
-        // The margin lies inside the half extents, so that the edges keep their full lengths; the usual one of 4 cm
-        // would be most of a small box.
-        auto box = std::make_unique<btBoxShape>(toBullet(b.size / 2));
-        box->setSafeMargin(toBullet(b.size / 2));
-        return box;
-    }
-    Pointer operator()(const Capsule& c) const {
-        return std::make_unique<btCapsuleShapeZ>(static_cast<btScalar>(c.radius), static_cast<btScalar>(c.length));
-    }
-    Pointer operator()(const HalfSpace& h) const {
-        const double length = h.normal.norm();
-        return std::make_unique<btStaticPlaneShape>(toBullet(h.normal / length), static_cast<btScalar>(h.offset));
-    }
-};
 
 /// What the callbacks of the pair properties find at a collision object.
 const RigidScene& sceneOf(const btCollisionObject& object) {
@@ -115,7 +80,7 @@ class BulletEngine final : public Engine {
     }
 
     void add(const RigidBody& body, const EngineOptions& options) {
-        shapes_.push_back(std::visit(MakeShape{}, body.shape));
+        shapes_.push_back(std::visit(MakeBulletShape{}, body.shape));
         btRigidBody::btRigidBodyConstructionInfo info(
             body.fixed ? 0 : static_cast<btScalar>(body.mass), nullptr, shapes_.back().get(),
             body.fixed ? btVector3(0, 0, 0) : toBullet(body.principal_inertia));
@@ -150,9 +115,7 @@ class BulletEngine final : public Engine {
 EngineKind bulletEngine() {
     EngineKind kind;
     kind.name = "bullet";
-    const int number = btGetVersion();
-    kind.version = fmt::format("Bullet {}.{:02}, {} precision", number / 100, number % 100,
-                               sizeof(btScalar) == sizeof(float) ? "single" : "double");
+    kind.version = bulletVersion();
     const btContactSolverInfo solver;
     kind.settings = fmt::format(
         "btDiscreteDynamicsWorld, sequential impulses, {} iterations, split impulse {}, erp2 {:.2g}, warm starting "

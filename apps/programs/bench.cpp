@@ -7,6 +7,7 @@
 #include "bench/kernels.h"
 #include "bench/peers.h"
 #include "bench/plot.h"
+#include "bench/rays.h"
 #include "bench/scaling.h"
 #include "bench/scenes.h"
 #include "bench/threads.h"
@@ -323,6 +324,39 @@ void addKernelsSuite(CLI::App& bench, int& exit_code) {
     });
 }
 
+struct RaysArguments {
+    std::string scene = "heap:10000";
+    double seconds = 3;
+    std::size_t rays = 100'000;
+    std::size_t repetitions = 5;
+    SuiteArguments suite;
+};
+
+void addRaysSuite(CLI::App& bench, int& exit_code) {
+    CLI::App* command = bench.add_subcommand("rays", "Compare with Bullet: rays into a pile, time and hits");
+    auto arguments = std::make_shared<RaysArguments>();
+    command->add_option("--scene", arguments->scene, "Default: heap:10000");
+    command->add_option("--duration", arguments->seconds, "How long it falls before; default: 3")
+        ->type_name("S")
+        ->check(CLI::Range(0.0, longest_duration));
+    command->add_option("--rays", arguments->rays, "Default: 100000")->check(CLI::Range(1, 100'000'000));
+    command->add_option("--repeat", arguments->repetitions, "Of each engine, in turns; default: 5")
+        ->check(CLI::Range(1, most_repetitions));
+    addSuiteOptions(*command, arguments->suite);
+    command->callback([arguments, &exit_code] {
+        bench::RaysOptions options;
+        options.scene = arguments->scene;
+        options.seconds = arguments->seconds;
+        options.rays = arguments->rays;
+        options.repetitions = arguments->repetitions;
+        options.extent = arguments->suite.extent();
+        exit_code = runSuite(arguments->suite, [&](const bench::Progress& progress) {
+            options.progress = progress;
+            return bench::runRays(options);
+        });
+    });
+}
+
 void addSuites(CLI::App& bench, int& exit_code) {
     bench.require_subcommand(1);
     bench.add_subcommand(std::string(thesis_companion.command), std::string(thesis_companion.description));
@@ -331,6 +365,7 @@ void addSuites(CLI::App& bench, int& exit_code) {
     addScalingSuite(bench, exit_code);
     addThreadsSuite(bench, exit_code);
     addPeersSuite(bench, exit_code);
+    addRaysSuite(bench, exit_code);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 /// The state of bodies: of one by its id, of all in arrays.
 #include "arrays.h"
+#include "native.h"
 #include "parts.h"
 #include "world_class.h"
 
@@ -19,14 +20,12 @@ py::array arrayOf(const BodyView<Element>& view) {
 /// A property that is an array of a field. @param number of the field, below 8
 template <class Number, auto field, std::size_t number>
 void bindView(py::class_<PyBodies>& bodies, const char* name, const char* doc) {
-    bodies.def_property_readonly(
-        name,
-        [](const PyBodies& self) {
-            const World& world = self.use();
-            return self.owner->arrays().get(number, world.layoutVersion(),
-                                            [&] { return arrayOf<Number>(world.bodyViews().*field); });
-        },
-        doc);
+    constexpr auto get = [](const PyBodies& self) {
+        const World& world = self.use();
+        return self.owner->arrays().get(number, world.layoutVersion(),
+                                        [&] { return arrayOf<Number>(world.bodyViews().*field); });
+    };
+    bindGetter<PyBodies, get>(bodies, name, doc);
 }
 
 py::array idsOfSlots(const PyBodies& self) {

@@ -170,7 +170,7 @@ void bindScene(py::module_& module) {
         .def("__repr__", [](const BuiltInScene& self) { return "BuiltInScene('" + std::string(self.name) + "')"; });
 }
 
-void bindFunctions(py::module_& module) {
+void bindSceneFunctions(py::module_& module) {
     module.def("read_scene", &readScene, py::arg("file"), "Reads a scene file. Raises InputError, IoError.");
     module.def("parse_scene", &parseScene, py::arg("json"), py::arg("source") = "text",
                "Reads the text of a scene file; source is shown in messages. Raises InputError.");
@@ -202,7 +202,7 @@ void bindSceneRecords(py::module_& module) {
     bindSceneBodies(module);
     bindEvents(module);
     bindScene(module);
-    bindFunctions(module);
+    bindSceneFunctions(module);
 }
 
 }  // namespace cairn::python

@@ -1,5 +1,6 @@
 /// The world but for its bodies' state.
 #include "arrays.h"
+#include "native.h"
 #include "owner.h"
 #include "parts.h"
 #include "record.h"
@@ -114,7 +115,27 @@ void bindTies(WorldClass& world) {
         .def("__contains__", [](const PyWorld& self, JointId id) { return self.use().contains(id); });
 }
 
+PyObject* step(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* names) {
+    try {
+        const std::int64_t steps = countIn(arguments, count, names, "step", "steps", 1);
+        const PyWorld& held = heldBy<PyWorld>(self);
+        World& world = held.use();
+        stepOften(*held.owner, steps, [&] { world.step(); });
+        return py::none().release().ptr();
+    } catch (...) {
+        return raised();
+    }
+}
+
+py::object bodiesOf(PyWorld& self) {
+    if (!self.bodies) self.bodies = py::cast(PyBodies{self.owner});
+    return self.bodies;
+}
+
 void bindTime(WorldClass& world) {
+    bindMethod(world, "step", step,
+               "step($self, steps=1)\n--\n\n"
+               "So many time steps, without the interpreter's lock. Raises InvariantError.");
     world
         .def_property(
             "gravity", on(&World::gravity),
@@ -126,13 +147,6 @@ void bindTime(WorldClass& world) {
         .def_property_readonly("gravity_law", on(&World::gravityLaw), "None = gravity stays.")
         .def_property("global_acceleration", on(&World::globalAcceleration), on(&World::setGlobalAcceleration),
                       "A second acceleration of all bodies [m/s², W]. Raises InputError.")
-        .def(
-            "step",
-            [](const PyWorld& self, std::int64_t steps) {
-                World& w = self.use();
-                stepOften(*self.owner, steps, [&] { w.step(); });
-            },
-            py::arg("steps") = 1, "So many time steps, without the interpreter's lock. Raises InvariantError.")
         .def_property_readonly("time", on(&World::time), "Simulated time [s].")
         .def_property_readonly("steps_per_second_by_size", on(&World::stepsPerSecondBySize),
                                "Time steps per second that the sizes of the bodies that move ask for [1/s].")
@@ -206,16 +220,10 @@ void bindWorld(py::module_& module) {
         .def("add_body", &addBody, "Adds the body that a BodyDescription, or its fields, describe. Raises InputError.")
         .def("remove_body", on(&World::removeBody), py::arg("id"),
              "Wakes the sleeping bodies that touched it; its springs and joints go with it. Raises StaleIdError.")
-        .def_property_readonly(
-            "bodies",
-            [](PyWorld& self) {
-                if (!self.bodies) self.bodies = py::cast(PyBodies{self.owner});
-                return self.bodies;
-            },
-            "The state of all bodies in arrays.")
         .def_property_readonly("body_count", on(&World::bodyCount), "Bodies in the world.")
         .def_property_readonly("layout_version", on(&World::layoutVersion),
                                "Another number as soon as arrays of the bodies are to be taken anew.");
+    bindGetter<PyWorld, bodiesOf>(world, "bodies", "The state of all bodies in arrays.");
     bindMaterials(world);
     bindTies(world);
     bindTime(world);

@@ -4,6 +4,7 @@ import gc
 import pickle
 import threading
 from pathlib import Path
+from typing import Callable
 
 import cairn
 import numpy as np
@@ -153,6 +154,44 @@ def test_a_world_that_another_thread_steps_is_refused_and_the_interpreter_runs_o
         thread.join()
     assert refused == 3
     world.step()
+
+
+def test_a_step_takes_a_number_by_place_or_by_name() -> None:
+    world = tower(2)
+    world.step()
+    world.step(2)
+    world.step(steps=3)
+    step: Callable[..., None] = world.step
+    step(np.int64(4))
+    bound = world.step
+    bound(steps=0)
+    assert world.step_count == 10
+    with pytest.raises(cairn.InputError, match="at least 0"):
+        world.step(-1)
+    calls: list[tuple[tuple[object, ...], dict[str, object]]] = [
+        ((1, 2), {}), ((), {"often": 2}), ((1.5,), {}), ((2,), {"steps": 2}), (("2",), {})]
+    for places, names in calls:
+        with pytest.raises(TypeError):
+            step(*places, **names)
+    with pytest.raises(OverflowError):
+        world.step(10**30)
+    with pytest.raises(TypeError):
+        cairn.World.step(world.bodies)  # type: ignore[arg-type]
+    assert world.step_count == 10
+
+
+def test_worlds_of_a_class_of_ones_own_step_and_unmade_ones_are_refused() -> None:
+    class Mine(cairn.World):
+        pass
+
+    world = Mine()
+    world.step()
+    assert world.step_count == 1 and len(world.bodies.linear_velocity) == 0
+    unmade = cairn.World.__new__(cairn.World)
+    with pytest.raises(TypeError, match="__init__"):
+        unmade.step()
+    with pytest.raises(TypeError, match="__init__"):
+        unmade.bodies
 
 
 def test_parts_keep_what_they_belong_to() -> None:

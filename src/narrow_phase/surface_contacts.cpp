@@ -228,19 +228,19 @@ void SurfaceMeeting::meetTriangle(const SurfaceFace& face, std::uint32_t triangl
     const std::array<Vec3, 3> corners = surface_.corners(triangle);
     Manifold contact = contactWith(face, triangle);
     if (contact.size == 0) return;
-    if (contact.normal.dot(face.normal) > 1 - same_direction) {
-        for (std::size_t i = 0; i < contact.size; ++i) {
-            ManifoldPoint& point = contact.points[i];
-            point.triangle = triangle;
-            if (!isShallowerElsewhere(face, point)) beside_.push_back(point);
-        }
-        return;
-    }
+    const bool along_face = contact.normal.dot(face.normal) > 1 - same_direction;
     for (std::size_t i = 0; i < contact.size; ++i) {
         ManifoldPoint& point = contact.points[i];
         const Vec3 foot = point.point - 0.5 * point.distance * contact.normal;
         const TriangleFeature feature = featureAt(corners, foot, at_edge_part * size_);
-        if (isWithinFace(surface_, triangle, feature)) continue;
+        // At an edge within the face nothing ends: what was cut off there goes on over the next triangle.
+        const bool inside = along_face && feature.kind == TriangleFeature::Kind::inside;
+        if (!inside && isWithinFace(surface_, triangle, feature)) continue;
+        if (along_face) {
+            point.triangle = triangle;
+            if (!isShallowerElsewhere(face, point)) beside_.push_back(point);
+            continue;
+        }
         if (!isOutward(surface_, triangle, feature, contact.normal)) continue;
         point.triangle = triangle;
         addEdge(contact.normal, point);

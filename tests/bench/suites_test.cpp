@@ -7,6 +7,8 @@
 #include "bench/kernels.h"
 #include "bench/peers.h"
 #include "bench/plot.h"
+#include "bench/ray_casters.h"
+#include "bench/rays.h"
 #include "bench/scaling.h"
 #include "bench/scenes.h"
 
@@ -289,6 +291,39 @@ TEST(Scaling, RefusesWrongSettingsBeforeItBegins) {
     ScalingOptions options = quickScaling();
     options.variants = {{"wrong", {{"nonsense", "1"}}}};
     EXPECT_THROW(runScaling(options), InputError);
+}
+
+/// Whether Bullet's hits are Cairn's within what Bullet's search calls a surface.
+TEST(Rays, OfEveryEngineEndOnTheSameSurfaces) {
+    RaysOptions options;
+    options.scene = "heap:200";
+    options.extent = Extent::quick;
+    options.progress = [](double, const std::string&) {};
+    try {
+        bulletRayCasters();
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("install the Debian package"), std::string::npos) << error.what();
+        EXPECT_THROW(runRays(options), InputError);
+        return;
+    }
+    const Outcome outcome = runRays(options);
+    EXPECT_EQ(namesOf(outcome.json.at("entries")),
+              (std::set<std::string>{"heap:200/cairn", "heap:200/bullet", "heap:200/bullet gjk"}));
+    const auto hits = entryOf(outcome.json, "heap:200/cairn").at("values").at("hits").get<int>();
+    EXPECT_GT(hits, 1000);
+    for (const Json& entry : outcome.json.at("entries")) {
+        const Json& values = entry.at("values");
+        EXPECT_GT(values.at("ray_us"), 0);
+        // Bullet's search now and then ends in the air, or goes past a body that the ray grazes.
+        EXPECT_LE(values.at("median_from_surface_mm").get<double>(), 0.01) << entry.at("name");
+        EXPECT_LE(values.at("median_difference_mm").get<double>(), 0.01) << entry.at("name");
+        EXPECT_LE(values.at("other_body").get<int>(), hits / 40) << entry.at("name");
+        EXPECT_LE(values.at("in_the_air").get<int>(), hits / 40) << entry.at("name");
+        EXPECT_LE(values.at("passed").get<int>(), hits / 40) << entry.at("name");
+        EXPECT_EQ(values.at("before").get<int>(), 0) << entry.at("name");
+    }
+    options.scene = "cradle_swing:5:2";
+    EXPECT_THROW(runRays(options), InputError);
 }
 
 TEST(Variants, ChangeFieldsAndPreset) {

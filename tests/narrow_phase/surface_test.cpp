@@ -131,6 +131,37 @@ TEST(Surfaces, WithinOneFaceABorderElsewhereChangesNothing) {
     }
 }
 
+/// Triangles at the border are asked one by one: what they cut off within their face is no point of contact.
+TEST(Surfaces, NearTheBorderOfAFaceTheyTouchWhereItsPlaneDoes) {
+    const Mesh table = fineBoxMesh({4, 4, 1}, {30, 30, 6}, 2);
+    constexpr double margin = 0.05;
+    Random random(8);
+    int several = 0;
+    for (const auto& [name, shape] : solids()) {
+        for (int i = 0; i < 200; ++i) {
+            Pose pose{Vec3(0, random.uniform(-1, 1), 0), random.orientation()};
+            const Bounds bounds = boundsOf(shape, pose);
+            pose.position.x() = 2 - random.uniform(0, margin) - bounds.upper.x();
+            pose.position.z() = 0.5 + random.uniform(-0.005, 0.005) - bounds.lower.z();
+            const auto expected = manifoldsOf(shape, pose, HalfSpace{Vec3::UnitZ(), 0.5}, Pose{}, margin);
+            for (const Manifold& m : on(table, shape, pose, margin)) {
+                if (m.normal.z() < 1 - 1e-9) continue;
+                several += m.size > 1 ? 1 : 0;
+                for (std::size_t k = 0; k < m.size; ++k) {
+                    double nearest = 1;
+                    for (const Manifold& plane : expected) {
+                        for (std::size_t l = 0; l < plane.size; ++l) {
+                            nearest = std::min(nearest, (plane.points[l].point - m.points[k].point).norm());
+                        }
+                    }
+                    EXPECT_LT(nearest, 1e-6) << name << " " << i << ", point " << m.points[k].point.transpose();
+                }
+            }
+        }
+    }
+    EXPECT_GT(several, 100);
+}
+
 TEST(Surfaces, ABallOnARidgeTouchesTheEdgeInItsDirection) {
     const Mesh ridge = foldedMesh(-1, 7);
     for (const double degrees : {-44.0, -20.0, 0.0, 30.0, 44.0}) {
