@@ -125,7 +125,8 @@ def _simulate(
         begin = time.perf_counter()
         scene_run.step()
         seconds += time.perf_counter() - begin
-        since_frame = since_frame + scene_run.world.statistics
+        now = scene_run.world.statistics
+        total, since_frame = total + now, since_frame + now
         if options.hashes_per_frame:
             hashes.append(scene_run.world.state_hash())
         if not _core.is_frame_due(scene_run, options.frame_rate):
@@ -133,7 +134,7 @@ def _simulate(
         if writer is not None:
             frame = _core.capture_frame(scene_run, since_frame, options)
             writer.append(frame.replace(step_hashes=hashes) if hashes else frame)
-        total, since_frame, hashes = total + since_frame, _core.Statistics(), []
+        since_frame, hashes = _core.Statistics(), []
         if after_frame is not None:
             after_frame(scene_run)
-    return total + since_frame, seconds
+    return total, seconds

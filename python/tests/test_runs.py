@@ -51,6 +51,8 @@ def test_a_run_goes_to_its_end(tmp_path: Path) -> None:
     from_file = cairn.run(tmp_path / "scene.json", duration=0.1, preset="accuracy")
     assert from_file.world.time == pytest.approx(0.1) and from_file.recording is None
     assert cairn.run("tower:2", duration=1 / 30, steps_per_second=300).world.step_count == 10
+    resting = cairn.run("tower:3", duration=1)
+    assert resting.statistics.asleep == resting.world.bodies.asleep.sum() == 3 and "3 asleep" in repr(resting)
     with pytest.raises(OSError):
         cairn.run("no such scene")
     with pytest.raises(cairn.InputError):
