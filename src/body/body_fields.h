@@ -46,6 +46,7 @@ struct BodyArrays {
     FieldArray<Vec3> linear_step;           ///< ℓ: displacement by the linear velocity in this time step [m, W]
     FieldArray<Vec3> force, torque;         ///< for the next step [N], [N·m, W]
     FieldArray<Vec3> constant_force, constant_torque;  ///< in every step [N], [N·m, W]
+    FieldArray<std::uint32_t> place;                   ///< among the bodies of its batch
     FieldArray<std::uint8_t> asleep;                   ///< 1 = asleep
     FieldArray<WakeReason> woken;                      ///< why it woke in this step
     FieldArray<double> motion;          ///< rwa: recency-weighted average of the squared motion [m²/s²] (3.2.4)
@@ -128,6 +129,7 @@ inline constexpr auto body_fields = std::tuple{
     BodyField{&BodyArrays::torque, "torque", "N·m", Change::steps},
     BodyField{&BodyArrays::constant_force, "constant_force", "N", Change::calls},
     BodyField{&BodyArrays::constant_torque, "constant_torque", "N·m", Change::calls},
+    BodyField{&BodyArrays::place, "place", "1", Change::anew},
     BodyField{&BodyArrays::asleep, "asleep", "", Change::steps},
     BodyField{&BodyArrays::woken, "woken", "", Change::steps},
     BodyField{&BodyArrays::motion, "motion", "m²/s²", Change::steps},

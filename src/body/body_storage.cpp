@@ -119,6 +119,11 @@ void BodyStorage::release(BodyIndex i) {
 }
 
 void BodyStorage::adoptSlots(std::uint64_t next_number) {
+    forEachBodyField([&](const auto& field) {
+        auto& array = this->*field.array;
+        using Type = typename std::decay_t<decltype(array)>::value_type;
+        if (array.size() != slots()) array.assign(slots(), blank<Type>());
+    });
     next_number_ = next_number;
     holes_.clear();
     for (BodyIndex i = 0; i < slots(); ++i) {
@@ -151,6 +156,7 @@ BodyState BodyStorage::state() {
             .inertiaInv_B = inertiaInv_B,
             .inertiaInv_W = inertiaInv_W,
             .linear_step = linear_step,
+            .place = place,
             .asleep = asleep,
             .woken = woken,
             .gravity_factor = gravity_factor,

@@ -23,6 +23,7 @@ struct BodyState {
     std::span<const Vec3> inertiaInv_B;        ///< [1/(kg·m²), B]; 0 for fixed bodies
     std::span<Mat3> inertiaInv_W;              ///< [1/(kg·m²), W]; 0 for fixed bodies
     std::span<const Vec3> linear_step;         ///< ℓ: displacement by the linear velocity in this time step [m, W]
+    std::span<std::uint32_t> place;            ///< among the bodies of its batch, where that was written down
     std::span<std::uint8_t> asleep;            ///< 1 = asleep
     std::span<WakeReason> woken;               ///< why it woke in this step
     std::span<const double> gravity_factor{};  ///< of the global accelerations that it feels; empty = all of it
@@ -50,6 +51,10 @@ struct BodyState {
     bool isFixed(BodyIndex i) const { return kind[i] != BodyKind::dynamic; }
     /// Whether the resolution cannot move it.
     bool isImmovable(BodyIndex i) const { return isFixed(i) || (!held.empty() && held[i] != 0); }
+    /// Writes down where the bodies of a batch stand in its list.
+    void writePlaces(std::span<const BodyIndex> batch) const {
+        for (std::uint32_t n = 0; n < batch.size(); ++n) place[batch[n]] = n;
+    }
     /// Wakes a body if it sleeps, keeping the first reason of the step.
     void wake(BodyIndex i, WakeReason reason) const {
         if (asleep[i] == 0) return;
@@ -108,7 +113,8 @@ class BodyStorage : public BodyArrays {
     /// Drops slots and adds blank holes. @param homes of the slots there are then, ascending @pre dropped slots are
     /// holes whose bodies no exception of the filter names, and the world is a part
     SlotMove takeHomes(std::vector<BodyIndex> homes);
-    /// Finds the holes and the count anew. @pre every array has one entry per slot; call it after replacing them
+    /// Finds the holes and the count anew. @pre every array that is saved has one entry per slot; call it after
+    /// replacing them
     /// @param next_number above the number of every body
     void adoptSlots(std::uint64_t next_number);
     /// The number of the body that is added next.

@@ -55,9 +55,8 @@ CorrectionCounts PositionSweeps::correct(const BatchView& batch, const ContactsO
 
 /// Lists the contacts between bodies that can move apart.
 void PositionSweeps::gather(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
-    if (local_.size() < bodies.size()) local_.resize(bodies.size());
     const auto fixed = static_cast<std::uint32_t>(batch.bodies.size());
-    for (std::uint32_t i = 0; i < fixed; ++i) local_[batch.bodies[i]] = i;
+    bodies.writePlaces(batch.bodies);
     shares_.assign(batch.bodies.size() + 1, {});
     overlaps_.clear();
     levers_.clear();
@@ -67,8 +66,8 @@ void PositionSweeps::gather(const BatchView& batch, std::span<const Contact> con
         overlaps_.push_back({.normal = contact.normal,
                              .distance = contact.distance,
                              .threshold = -contact.allowed_overlap,
-                             .a = bodies.isFixed(contact.a) ? fixed : local_[contact.a],
-                             .b = bodies.isFixed(contact.b) ? fixed : local_[contact.b],
+                             .a = bodies.isFixed(contact.a) ? fixed : bodies.place[contact.a],
+                             .b = bodies.isFixed(contact.b) ? fixed : bodies.place[contact.b],
                              .index = index});
     }
 }

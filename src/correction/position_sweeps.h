@@ -66,9 +66,8 @@ class PositionSweeps final : public Correction {
     void payAt(const Contact& contact, Share& a, Share& b, const BodyState& bodies);
 
     std::vector<Overlap> overlaps_;
-    std::vector<Levers> levers_;        ///< of the contacts that asked for them
-    std::vector<Share> shares_;         ///< [bodies of the batch + 1]
-    std::vector<std::uint32_t> local_;  ///< [slots] local index; holds for the bodies of the present batch
+    std::vector<Levers> levers_;  ///< of the contacts that asked for them
+    std::vector<Share> shares_;   ///< [bodies of the batch + 1]
 };
 
 }  // namespace cairn

@@ -20,18 +20,20 @@ std::int64_t moveBodies(const Propagation& search, const BodyState& bodies) {
 
 /// Brings the contacts of all moved bodies up to date. @source thesis (2.3.7)
 void updateContacts(const Propagation& search, const ContactsOfBodies& contacts_of, std::span<Contact> contacts,
-                    PushGraph& graph) {
+                    const BodyState& bodies, PushGraph& graph) {
+    const auto shareOf = [&](BodyIndex i) { return bodies.isFixed(i) ? 0 : search.share(i); };
     for (const BodyIndex body : search.moved()) {
         for (const std::uint32_t index : contacts_of[body]) {
             Contact& contact = contacts[index];
-            const double share_a = search.share(contact.a);
-            const double share_b = search.share(contact.b);
+            const double share_a = shareOf(contact.a);
+            const double share_b = shareOf(contact.b);
             // A contact between two moved bodies is met twice and updated once, with its body A.
             if (body == contact.b && share_a > 0) continue;
             contact.point += (0.5 * (share_a + share_b)) * search.displacement();
             contact.distance += (share_a - share_b) * search.displacement().dot(contact.normal);
-            graph.distancesChanged(contact.a);
-            graph.distancesChanged(contact.b);
+            for (const BodyIndex i : {contact.a, contact.b}) {
+                if (!bodies.isFixed(i)) graph.distancesChanged(i);
+            }
         }
     }
 }
@@ -40,8 +42,6 @@ void updateContacts(const Propagation& search, const ContactsOfBodies& contacts_
 
 CorrectionCounts PropagatedCorrection::correct(const BatchView& batch, const ContactsOfBodies& contacts_of,
                                                std::span<Contact> contacts, const BodyState& bodies, double remaining) {
-    best_.reserve(bodies.size());
-    trial_.reserve(bodies.size());
     penetrating_.clear();
     for (const std::uint32_t index : batch.contacts) {
         if (contacts[index].isTooDeep()) penetrating_.push_back(index);
@@ -49,13 +49,16 @@ CorrectionCounts PropagatedCorrection::correct(const BatchView& batch, const Con
     CorrectionCounts counts;
     counts.penetrating = static_cast<std::int64_t>(penetrating_.size());
     if (counts.penetrating == 0) return counts;
-    graph_.reset(contacts_of, contacts, bodies, remaining);
+    bodies.writePlaces(batch.bodies);
+    best_.begin(bodies.place, batch.bodies.size());
+    trial_.begin(bodies.place, batch.bodies.size());
+    graph_.reset(batch, contacts_of, contacts, bodies, remaining);
     for (const std::uint32_t index : penetrating_) {
         // The correction of another contact may have corrected this one.
         if (!contacts[index].isTooDeep()) continue;
         if (!choose(contacts[index], bodies, remaining)) continue;
         counts.displaced += moveBodies(best_, bodies);
-        updateContacts(best_, contacts_of, contacts, graph_);
+        updateContacts(best_, contacts_of, contacts, bodies, graph_);
     }
     counts.uncorrected =
         std::ranges::count_if(penetrating_, [&](std::uint32_t index) { return contacts[index].isTooDeep(); });

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 
+#include "math/arrays.h"
+
 namespace cairn {
 
-void Propagation::reserve(std::size_t slots) {
-    if (notes_.size() < slots) notes_.resize(slots);
+void Propagation::begin(std::span<const std::uint32_t> place, std::size_t bodies) {
+    place_ = place;
+    if (notes_.size() < bodies) resizeTightly(notes_, bodies);
 }
 
 PropagationOutcome Propagation::run(const Candidate& candidate, PushGraph& graph, std::size_t limit) {
@@ -30,7 +33,7 @@ PropagationOutcome Propagation::run(const Candidate& candidate, PushGraph& graph
 /// Tells the graph how the push came to a body from where it is blocked.
 void Propagation::rememberWayTo(BodyIndex body, const Candidate& candidate, PushGraph& graph) const {
     while (body != candidate.body) {
-        const Way& way = notes_[body].pushed_by;
+        const Way& way = notes_[place_[body]].pushed_by;
         graph.rememberWay(way.body, displacement_, way.link);
         body = way.body;
     }
@@ -55,7 +58,7 @@ bool Propagation::pop(Open& open) {
 
 /// Associates a displacement with a body if it is longer than the one it has. @return whether it is
 bool Propagation::note(BodyIndex body, double share, const Way& pushed_by) {
-    Note& known = notes_[body];
+    Note& known = notes_[place_[body]];
     if (known.search != search_) {
         if (!(share > 0)) return false;
         moved_.push_back(body);

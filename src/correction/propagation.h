@@ -29,8 +29,8 @@ enum class PropagationOutcome : std::uint8_t {
 /// search. @source thesis Algorithms 1 and 3
 class Propagation {
   public:
-    /// Is for bodies with slots below `slots` from now on.
-    void reserve(std::size_t slots);
+    /// Is for the bodies of a batch from now on. @param place of each [slots] among so many
+    void begin(std::span<const std::uint32_t> place, std::size_t bodies);
 
     /// Searches what the candidate's displacement moves. @param limit largest number of bodies worth knowing about
     PropagationOutcome run(const Candidate& candidate, PushGraph& graph, std::size_t limit);
@@ -39,9 +39,9 @@ class Propagation {
     const Vec3& displacement() const { return displacement_; }
     /// The bodies that move, beginning with the first; complete only after a valid search.
     std::span<const BodyIndex> moved() const { return moved_; }
-    /// The fraction of displacement() by which a body moves, 0 if it does not.
+    /// The fraction of displacement() by which a body of the batch moves, 0 if it does not.
     double share(BodyIndex body) const {
-        const Note& note = notes_[body];
+        const Note& note = notes_[place_[body]];
         return note.search == search_ ? note.share : 0;
     }
 
@@ -70,7 +70,8 @@ class Propagation {
     void rememberWayTo(BodyIndex body, const Candidate& candidate, PushGraph& graph) const;
     bool pop(Open& open);
 
-    std::vector<Note> notes_;  ///< [slots]
+    std::span<const std::uint32_t> place_;
+    std::vector<Note> notes_;  ///< [bodies of the batch]
     std::vector<BodyIndex> moved_;
     std::vector<Open> stack_;    ///< those pushed as far as the present one, which is the furthest
     std::vector<Open> shorter_;  ///< max-heap of the others

@@ -13,21 +13,28 @@ constexpr int longest_way = 64;
 
 }  // namespace
 
-void PushGraph::reset(const ContactsOfBodies& contacts_of, std::span<const Contact> contacts, const BodyState& bodies,
-                      double remaining) {
+void PushGraph::reset(const BatchView& batch, const ContactsOfBodies& contacts_of, std::span<const Contact> contacts,
+                      const BodyState& bodies, double remaining) {
     contacts_of_ = &contacts_of;
     contacts_ = contacts;
     kind_ = bodies.kind;
+    place_ = bodies.place;
     remaining_ = remaining;
     ++round_;
-    if (nodes_.size() < bodies.size()) nodes_.resize(bodies.size());
-    if (links_.size() < contacts_of.contacts.size()) resizeTightly(links_, contacts_of.contacts.size());
+    if (nodes_.size() < batch.bodies.size()) resizeTightly(nodes_, batch.bodies.size());
+    std::uint32_t first = 0;
+    for (std::size_t i = 0; i < batch.bodies.size(); ++i) {
+        nodes_[i].first = first;
+        nodes_[i].count = static_cast<std::uint32_t>(contacts_of[batch.bodies[i]].size());
+        first += nodes_[i].count;
+    }
+    if (links_.size() < first) resizeTightly(links_, first);
 }
 
 void PushGraph::pack(BodyIndex body) {
-    const std::span<const std::uint32_t> indices = (*contacts_of_)[body];
-    PushLink* link = links_.data() + contacts_of_->begin[body];
-    for (const std::uint32_t index : indices) {
+    Node& node = nodes_[place_[body]];
+    PushLink* link = links_.data() + node.first;
+    for (const std::uint32_t index : (*contacts_of_)[body]) {
         const Contact& contact = contacts_[index];
         const bool is_a = contact.a == body;
         const BodyIndex neighbour = is_a ? contact.b : contact.a;
@@ -35,12 +42,11 @@ void PushGraph::pack(BodyIndex body) {
         *link++ = {direction, contact.distance + remaining_ * contact.allowed_overlap, neighbour,
                    kind_[neighbour] != BodyKind::dynamic};
     }
-    nodes_[body].count = static_cast<std::uint32_t>(indices.size());
-    nodes_[body].packed = round_;
+    node.packed = round_;
 }
 
 void PushGraph::rememberWay(BodyIndex body, const Vec3& displacement, std::uint32_t link) {
-    Node& node = nodes_[body];
+    Node& node = nodes_[place_[body]];
     if (node.known != round_) node.ways.fill(no_link);
     node.known = round_;
     node.ways[octant(displacement)] = link;
@@ -49,7 +55,7 @@ void PushGraph::rememberWay(BodyIndex body, const Vec3& displacement, std::uint3
 bool PushGraph::isBlocked(BodyIndex body, double share, const Candidate& candidate) {
     const std::size_t direction = octant(candidate.displacement);
     for (int step = 0; step < longest_way; ++step) {
-        const Node& node = nodes_[body];
+        const Node& node = nodes_[place_[body]];
         if (node.known != round_ || node.ways[direction] == no_link) return false;
         const PushLink& link = linksOf(body)[node.ways[direction]];
         const Push push = pushThrough(link, share, candidate.displacement);

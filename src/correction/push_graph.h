@@ -51,18 +51,20 @@ inline Push pushThrough(const PushLink& link, double share, const Vec3& displace
 class PushGraph {
   public:
     /// Begins with new contacts; everything known is forgotten. What is passed must outlive the use.
+    /// @param bodies with the places of those of the batch
     /// @param remaining f: the part of what they are allowed to overlap down to which contacts may be pushed, in (0, 1)
-    void reset(const ContactsOfBodies& contacts_of, std::span<const Contact> contacts, const BodyState& bodies,
-               double remaining);
+    void reset(const BatchView& batch, const ContactsOfBodies& contacts_of, std::span<const Contact> contacts,
+               const BodyState& bodies, double remaining);
 
     /// One link per contact, in the order of the body's contacts. None for a fixed body.
     std::span<const PushLink> linksOf(BodyIndex body) {
-        if (nodes_[body].packed != round_) pack(body);
-        return std::span(links_).subspan(contacts_of_->begin[body], nodes_[body].count);
+        const Node& node = nodes_[place_[body]];
+        if (node.packed != round_) pack(body);
+        return std::span(links_).subspan(node.first, node.count);
     }
 
-    /// To be called for both bodies of a contact whose distance has changed.
-    void distancesChanged(BodyIndex body) { nodes_[body].packed = 0; }
+    /// To be called for those bodies of a contact whose distance has changed that can move.
+    void distancesChanged(BodyIndex body) { nodes_[place_[body]].packed = 0; }
 
     /// Remembers that pushes of a body along about this displacement are blocked by way of one of its links.
     void rememberWay(BodyIndex body, const Vec3& displacement, std::uint32_t link);
@@ -81,6 +83,7 @@ class PushGraph {
     struct Node {
         std::uint64_t packed = 0;             ///< round in which the links were packed
         std::uint64_t known = 0;              ///< round in which the ways were found
+        std::uint32_t first = 0;              ///< of the links, in links_
         std::uint32_t count = 0;              ///< number of links
         std::array<std::uint32_t, 8> ways{};  ///< link to follow, or none
     };
@@ -88,10 +91,11 @@ class PushGraph {
     const ContactsOfBodies* contacts_of_ = nullptr;
     std::span<const Contact> contacts_;
     std::span<const BodyKind> kind_;
+    std::span<const std::uint32_t> place_;  ///< [slots]
     double remaining_ = 0;
     std::uint64_t round_ = 0;      ///< number of resets; nothing is ever cleared
-    std::vector<Node> nodes_;      ///< [slots]
-    std::vector<PushLink> links_;  ///< in the places of ContactsOfBodies::contacts
+    std::vector<Node> nodes_;      ///< [bodies of the batch]
+    std::vector<PushLink> links_;  ///< of body after body
 };
 
 }  // namespace cairn

@@ -43,19 +43,20 @@ void add(const Twist& change, LocalBody& body) {
 }  // namespace
 
 void BatchJointGroup::gather(std::span<JointBlock> blocks, std::vector<LocalBody>& bodies,
-                             std::span<const std::uint32_t> local_of_slot) {
+                             std::span<const std::uint32_t> place) {
     members_.clear();
     for (const JointBlock& block : blocks) {
         // The bodies of a coupling are those of the joints that it couples.
         for (const BodyIndex body : {block.a, block.b}) {
-            // Bodies that cannot move are not among the batch's yet.
-            if (body != Joint::world && local_of_slot[body] < bodies.size()) members_.push_back(body);
+            // Bodies that cannot move are not among the batch's.
+            if (body == Joint::world || place[body] >= bodies.size()) continue;
+            if (bodies[place[body]].slot == body) members_.push_back(body);
         }
     }
     std::sort(members_.begin(), members_.end());
     members_.erase(std::unique(members_.begin(), members_.end()), members_.end());
     local.clear();
-    for (const BodyIndex body : members_) local.push_back(local_of_slot[body]);
+    for (const BodyIndex body : members_) local.push_back(place[body]);
     system.begin(members_, blocks, JointSystem::Rows::all);
     received_.assign(system.rows(), 0);
     factorise(bodies);
@@ -175,7 +176,7 @@ void BatchJointGroup::report() const {
 }
 
 void BatchJoints::gather(std::span<JointBlock> blocks, std::vector<LocalBody>& bodies,
-                         std::span<const std::uint32_t> local_of_slot) {
+                         std::span<const std::uint32_t> place) {
     count_ = 0;
     has_bounds_ = false;
     if (blocks.empty()) return;
@@ -189,7 +190,7 @@ void BatchJoints::gather(std::span<JointBlock> blocks, std::vector<LocalBody>& b
         }
         if (count_ == groups_.size()) groups_.emplace_back();
         BatchJointGroup& group = groups_[count_];
-        group.gather(blocks.subspan(begin, end - begin), bodies, local_of_slot);
+        group.gather(blocks.subspan(begin, end - begin), bodies, place);
         for (std::uint32_t i = 0; i < group.local.size(); ++i) {
             place_[group.local[i]] = {static_cast<std::uint32_t>(count_), i};
         }

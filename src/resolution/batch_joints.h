@@ -17,8 +17,7 @@ namespace cairn {
 /// A group of joints in the local numbering of a batch.
 class BatchJointGroup {
   public:
-    void gather(std::span<JointBlock> blocks, std::vector<LocalBody>& bodies,
-                std::span<const std::uint32_t> local_of_slot);
+    void gather(std::span<JointBlock> blocks, std::vector<LocalBody>& bodies, std::span<const std::uint32_t> place);
     /// Takes the masses of the bodies as they are now.
     void factorise(std::span<const LocalBody> bodies);
     /// Makes the velocities those that the joints allow.
@@ -53,9 +52,8 @@ class BatchJointGroup {
 /// All groups of joints of a batch.
 class BatchJoints {
   public:
-    /// Makes the joints hold. @param bodies the batch's dynamic bodies @param local_of_slot their indices
-    void gather(std::span<JointBlock> blocks, std::vector<LocalBody>& bodies,
-                std::span<const std::uint32_t> local_of_slot);
+    /// Makes the joints hold. @param bodies the batch's dynamic bodies @param place [slots] their indices
+    void gather(std::span<JointBlock> blocks, std::vector<LocalBody>& bodies, std::span<const std::uint32_t> place);
     bool empty() const { return count_ == 0; }
     bool hasBounds() const { return has_bounds_; }
     /// Whether a contact touches a jointed body.

@@ -6,8 +6,6 @@ namespace cairn {
 
 namespace {
 
-constexpr std::uint32_t not_in_batch = UINT32_MAX;
-
 LocalBody copyOf(BodyIndex slot, const BodyState& state) {
     LocalBody body;
     body.v = state.v[slot];
@@ -20,36 +18,30 @@ LocalBody copyOf(BodyIndex slot, const BodyState& state) {
 
 }  // namespace
 
-std::uint32_t LocalBatch::localIndex(BodyIndex slot, const BodyState& state) {
-    std::uint32_t& local = local_of_slot_[slot];
-    if (local == not_in_batch) {
-        local = static_cast<std::uint32_t>(bodies.size());
-        bodies.push_back(copyOf(slot, state));
-    }
-    return local;
-}
-
-/// A fixed body whose surface moves is another one in each contact: its velocity there is along the surface.
+/// A body that is not of the batch, a fixed one or one that sleeps on, stands for itself in each run of contacts with
+/// it. If its surface moves, it is another one in each contact: its velocity there is along the surface.
 std::uint32_t LocalBatch::localEnd(const Contact& contact, BodyIndex slot, const BodyState& state) {
-    if (state.surface.empty() || state.surface[slot].isZero(0)) return localIndex(slot, state);
-    bodies.push_back(copyOf(slot, state));
-    bodies.back().v += state.surfaceVelocity(slot, contact.normal);
+    if (isMember(slot, state)) return state.place[slot];
+    const bool slides = !state.surface.empty() && !state.surface[slot].isZero(0);
+    if (slides || bodies.size() == dynamic_bodies || bodies.back().slot != slot) {
+        bodies.push_back(copyOf(slot, state));
+        if (slides) bodies.back().v += state.surfaceVelocity(slot, contact.normal);
+    }
     return static_cast<std::uint32_t>(bodies.size() - 1);
 }
 
 void LocalBatch::gatherBodies(const BatchView& batch, std::span<const Contact> all_contacts, const BodyState& state) {
-    if (local_of_slot_.size() < state.size()) local_of_slot_.resize(state.size(), not_in_batch);
     bodies.clear();
-    for (const BodyIndex slot : batch.bodies) localIndex(slot, state);
+    for (const BodyIndex slot : batch.bodies) bodies.push_back(copyOf(slot, state));
+    state.writePlaces(batch.bodies);
     dynamic_bodies = bodies.size();
-    joints.gather(batch.joints, bodies, local_of_slot_);
+    joints.gather(batch.joints, bodies, state.place);
     ends.resize(batch.contacts.size());
     for (std::size_t i = 0; i < ends.size(); ++i) {
         const Contact& contact = all_contacts[batch.contacts[i]];
         ends[i].a = localEnd(contact, contact.a, state);
         ends[i].b = localEnd(contact, contact.b, state);
     }
-    for (const LocalBody& body : bodies) local_of_slot_[body.slot] = not_in_batch;
     // Bodies that sleep on may be left out of a batch.
     for (std::size_t i = dynamic_bodies; i < bodies.size(); ++i) {
         bodies[i].mass_inv = 0;

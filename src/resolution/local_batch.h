@@ -33,7 +33,7 @@ struct ResolvedSoFar {
 /// Works on copies: masses may be changed here (shock propagation) without touching those of the world.
 class LocalBatch {
   public:
-    std::vector<LocalBody> bodies;        ///< the batch's dynamic bodies, then the fixed bodies they touch
+    std::vector<LocalBody> bodies;        ///< the batch's dynamic bodies, then copies of others that they touch
     std::vector<ContactFrame> contacts;   ///< in the batch's order; those that are prepared
     std::vector<RollingContact> rolling;  ///< of the contacts that resist rolling or spinning
     std::size_t dynamic_bodies = 0;       ///< bodies[i] is dynamic for i below this
@@ -99,17 +99,18 @@ class LocalBatch {
     /// What there is of a contact's frame.
     enum class Preparation : std::uint8_t { none, frame, complete };
 
+    bool isMember(BodyIndex slot, const BodyState& state) const {
+        return state.place[slot] < dynamic_bodies && bodies[state.place[slot]].slot == slot;
+    }
     void build(std::uint32_t contact);
     void buildFrame(std::uint32_t contact);
     void updateRolling(const ContactFrame& c);
     std::uint32_t localEnd(const Contact& contact, BodyIndex slot, const BodyState& state);
-    std::uint32_t localIndex(BodyIndex slot, const BodyState& state);
 
     std::span<const std::uint32_t> source_contacts_;  ///< [contacts] index in source_
     std::span<const Contact> source_;
-    std::span<const Vec3> source_position_;     ///< [slots] [m, W]
-    std::vector<Preparation> preparation_;      ///< [contacts]
-    std::vector<std::uint32_t> local_of_slot_;  ///< [slots] of the world; `none` outside of gather()
+    std::span<const Vec3> source_position_;  ///< [slots] [m, W]
+    std::vector<Preparation> preparation_;   ///< [contacts]
 };
 
 }  // namespace cairn

@@ -51,7 +51,6 @@ void loadRollback(const RollbackData& kept, WorldState& world) {
     if (world.lasting != kept.lasting) {
         world.materials = kept.lasting->materials;
         copyFields(Change::calls, kept.lasting->bodies, world.bodies);
-        world.bodies.linear_step.assign(world.bodies.slots(), Vec3::Zero());
         world.bodies.filter = kept.lasting->filter;
         world.bodies.adoptSlots(kept.lasting->next_number);
         world.lasting = kept.lasting;

@@ -196,7 +196,6 @@ void completeBodies(const ByteReader& in, std::size_t materials, std::uint64_t n
         in.refuse("an unknown state of a body");
     }
     checkNumbers(in, {b.number.begin(), b.number.end()}, next_number);
-    b.linear_step.assign(slots, Vec3::Zero());
     b.adoptSlots(next_number);
     for (BodyIndex i = 0; i < slots; ++i) {
         if (b.kind[i] == BodyKind::hole) continue;

@@ -66,12 +66,17 @@ struct ContactScene : BodyStorage {
         return table;
     }
 
-    /// All contacts as one batch.
-    CorrectionCounts correctWith(Correction& correction) {
+    std::vector<BodyIndex> movingBodies() const {
         std::vector<BodyIndex> bodies;
         for (BodyIndex body = 0; body < kind.size(); ++body) {
             if (kind[body] == BodyKind::dynamic) bodies.push_back(body);
         }
+        return bodies;
+    }
+
+    /// All contacts as one batch.
+    CorrectionCounts correctWith(Correction& correction) {
+        const std::vector<BodyIndex> bodies = movingBodies();
         std::vector<std::uint32_t> indices(contacts.size());
         std::iota(indices.begin(), indices.end(), 0U);
         return correction.correct({bodies, indices}, contactsOfBodies(), contacts, state(), remaining_part);

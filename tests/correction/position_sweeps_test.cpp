@@ -24,10 +24,7 @@ struct SweepsScene : ContactScene {
         return runWith(sweeps);
     }
     CorrectionCounts runWith(PositionSweeps& sweeps) {
-        std::vector<BodyIndex> bodies;
-        for (BodyIndex i = 0; i < kind.size(); ++i) {
-            if (kind[i] == BodyKind::dynamic) bodies.push_back(i);
-        }
+        const std::vector<BodyIndex> bodies = movingBodies();
         std::vector<std::uint32_t> indices(contacts.size());
         std::iota(indices.begin(), indices.end(), 0U);
         BodyState all = state();

@@ -23,8 +23,10 @@ struct Pushing : ContactScene {
                             BodyIndex other = nobody) {
         const ContactsOfBodies table = contactsOfBodies();
         const BodyState bodies = state();
-        search.reserve(bodies.size());
-        graph.reset(table, contacts, bodies, remaining_part);
+        const std::vector<BodyIndex> moving = movingBodies();
+        bodies.writePlaces(moving);
+        search.begin(bodies.place, moving.size());
+        graph.reset({moving, {}}, table, contacts, bodies, remaining_part);
         return search.run({body, other, CandidateKind::normal, displacement}, graph, limit);
     }
     Vec3 displacementOf(BodyIndex body) const { return search.share(body) * search.displacement(); }
