@@ -284,7 +284,7 @@ int runToTheEnd(SceneRun run, const OutputOptions& options, const std::filesyste
         if (tells) printError(*problem);
         return run_failed;
     }
-    noteInterrupts();
+    catchInterrupts();
     const bool shows = tells && !options.quiet && !options.json;
     const auto failure = runner.simulate(shows ? Progress::Wish::show : Progress::Wish::hide);
     const Report report = runner.report();

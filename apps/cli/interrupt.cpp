@@ -8,10 +8,10 @@ namespace cairn::cli {
 namespace {
 
 // A signal handler can reach nothing but a variable of the program.
-volatile std::sig_atomic_t noted = 0;
+volatile std::sig_atomic_t caught = 0;
 
-void note(int) {
-    noted = 1;
+void remember(int) {
+    caught = 1;
 }
 
 }  // namespace
@@ -20,9 +20,9 @@ void ignoreBrokenPipes() {
     std::signal(SIGPIPE, SIG_IGN);
 }
 
-void noteInterrupts() {
+void catchInterrupts() {
     struct sigaction action {};
-    action.sa_handler = note;
+    action.sa_handler = remember;
     action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
     sigemptyset(&action.sa_mask);
     for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
@@ -33,7 +33,7 @@ void noteInterrupts() {
 }
 
 bool interrupted() {
-    return noted != 0;
+    return caught != 0;
 }
 
 }  // namespace cairn::cli

@@ -7,7 +7,7 @@ namespace cairn::cli {
 void ignoreBrokenPipes();
 
 /// From now on the first SIGINT or SIGTERM is only noted; a second one ends the program at once.
-void noteInterrupts();
+void catchInterrupts();
 
 /// True once a signal was noted.
 bool interrupted();

@@ -43,7 +43,7 @@ void addSuiteOptions(CLI::App& command, SuiteArguments& arguments) {
 /// Runs a suite with progress, and shows what it found.
 template <class Run>
 int runSuite(const SuiteArguments& arguments, const Run& run) {
-    noteInterrupts();
+    catchInterrupts();
     try {
         const bench::Outcome outcome = [&] {
             BenchProgress progress;

@@ -49,7 +49,7 @@ thesis::BenchOutcome measure(const BenchArguments& arguments) {
 }
 
 int runThesis(const BenchArguments& arguments) {
-    noteInterrupts();
+    catchInterrupts();
     try {
         const thesis::BenchOutcome outcome = measure(arguments);
         printOut(outcome.summary);

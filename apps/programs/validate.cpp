@@ -37,7 +37,7 @@ int runValidate(const ValidateArguments& arguments) {
         listCases();
         return fine;
     }
-    noteInterrupts();
+    catchInterrupts();
     validation::ValidateOptions options;
     options.out = arguments.out;
     options.only = arguments.only;
@@ -86,7 +86,7 @@ int runPiles(const PilesArguments& arguments) {
     }
     // Said before hours of work rather than after.
     if (!arguments.json.empty()) TextFile(arguments.json).write("[]\n");
-    noteInterrupts();
+    catchInterrupts();
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     std::size_t met = 0;
     try {

@@ -75,7 +75,7 @@ std::unique_ptr<view::Viewer> makeViewer(const ViewOptions& options) {
 }
 
 void show(const ViewOptions& options) {
-    noteInterrupts();
+    catchInterrupts();
     const auto viewer = makeViewer(options);
     printOut(fmt::format("{}\n", viewer->address()));
     const bool opened = !options.no_open && view::openBrowser(viewer->address());
@@ -101,7 +101,7 @@ void write(const ViewOptions& options) {
     const ViewExports& exports = options.exports;
     if (!exports.html.empty()) view::exportHtml(recording, exports.html);
     if (exports.png.empty() && exports.mp4.empty()) return;
-    noteInterrupts();
+    catchInterrupts();
     const std::size_t frames = recording.info().frames;
     if (frames == 0) throw IoError("the recording has no frames to draw");
     const double end = recording.frame(frames - 1).time;

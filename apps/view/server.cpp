@@ -192,17 +192,17 @@ struct Server::Impl {
             // Not now: the viewer is still at work.
             asio::post(context, [this, id] {
                 viewers.erase(id);
-                noteWishes();
+                saveWishes();
             });
         };
-        told.ready = [this] { noteWishes(); };
+        told.ready = [this] { saveWishes(); };
         auto socket =
             std::make_shared<ViewerSocket>(std::move(connection->stream), options.longest_message, std::move(told));
         viewers[id] = socket;
         socket->accept(std::move(request));
     }
 
-    void noteWishes() {
+    void saveWishes() {
         bool any = false;
         for (const auto& [id, viewer] : viewers) any = any || viewer->ready();
         wanted = any;
@@ -270,7 +270,7 @@ void Server::toOne(ClientId client, SharedMessage message) {
 void Server::frame(SharedMessage message) {
     impl_->post([impl = impl_.get(), message = std::move(message)] {
         for (const auto& [id, viewer] : impl->viewers) viewer->offerFrame(message);
-        impl->noteWishes();
+        impl->saveWishes();
     });
 }
 

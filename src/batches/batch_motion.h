@@ -23,9 +23,9 @@ inline bool isAtRest(const BodyState& bodies, BodyIndex i) {
 }
 
 /// @param motion out, one entry per body; keeps its memory
-inline void noteMotion(std::span<const BodyIndex> noted, const BodyState& bodies, std::vector<BodyMotion>& motion) {
-    resizeTightly(motion, noted.size());
-    for (std::size_t n = 0; n < noted.size(); ++n) motion[n] = {bodies.v[noted[n]], bodies.w[noted[n]]};
+inline void saveMotion(std::span<const BodyIndex> saved, const BodyState& bodies, std::vector<BodyMotion>& motion) {
+    resizeTightly(motion, saved.size());
+    for (std::size_t n = 0; n < saved.size(); ++n) motion[n] = {bodies.v[saved[n]], bodies.w[saved[n]]};
 }
 
 /// ϑA − ϑB [m/s, W]. @source thesis (3.4.1)

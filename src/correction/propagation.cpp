@@ -8,7 +8,7 @@ namespace cairn {
 
 void Propagation::begin(std::span<const std::uint32_t> place, std::size_t bodies) {
     place_ = place;
-    if (notes_.size() < bodies) resizeTightly(notes_, bodies);
+    if (entries_.size() < bodies) resizeTightly(entries_, bodies);
 }
 
 PropagationOutcome Propagation::run(const Candidate& candidate, PushGraph& graph, std::size_t limit) {
@@ -18,7 +18,7 @@ PropagationOutcome Propagation::run(const Candidate& candidate, PushGraph& graph
     stack_.clear();
     shorter_.clear();
     if (limit == 0) return PropagationOutcome::abandoned;
-    note(candidate.body, 1, {});
+    extend(candidate.body, 1, {});
     stack_.push_back({1, candidate.body});
     for (Open open{}; pop(open);) {
         if (graph.isBlocked(open.body, open.share, candidate) || !pushNeighbours(open, candidate, graph)) {
@@ -33,7 +33,7 @@ PropagationOutcome Propagation::run(const Candidate& candidate, PushGraph& graph
 /// Tells the graph how the push came to a body from where it is blocked.
 void Propagation::rememberWayTo(BodyIndex body, const Candidate& candidate, PushGraph& graph) const {
     while (body != candidate.body) {
-        const Way& way = notes_[place_[body]].pushed_by;
+        const Way& way = entries_[place_[body]].pushed_by;
         graph.rememberWay(way.body, displacement_, way.link);
         body = way.body;
     }
@@ -57,8 +57,8 @@ bool Propagation::pop(Open& open) {
 }
 
 /// Associates a displacement with a body if it is longer than the one it has. @return whether it is
-bool Propagation::note(BodyIndex body, double share, const Way& pushed_by) {
-    Note& known = notes_[place_[body]];
+bool Propagation::extend(BodyIndex body, double share, const Way& pushed_by) {
+    Entry& known = entries_[place_[body]];
     if (known.search != search_) {
         if (!(share > 0)) return false;
         moved_.push_back(body);
@@ -82,7 +82,7 @@ bool Propagation::pushNeighbours(const Open& open, const Candidate& candidate, P
             graph.rememberWay(open.body, displacement_, i);
             return false;
         }
-        if (!note(link.neighbour, push.share, {open.body, i})) continue;
+        if (!extend(link.neighbour, push.share, {open.body, i})) continue;
         if (push.share < open.share) {
             shorter_.push_back({push.share, link.neighbour});
             std::push_heap(shorter_.begin(), shorter_.end());

@@ -41,8 +41,8 @@ class Propagation {
     std::span<const BodyIndex> moved() const { return moved_; }
     /// The fraction of displacement() by which a body of the batch moves, 0 if it does not.
     double share(BodyIndex body) const {
-        const Note& note = notes_[place_[body]];
-        return note.search == search_ ? note.share : 0;
+        const Entry& entry = entries_[place_[body]];
+        return entry.search == search_ ? entry.share : 0;
     }
 
   private:
@@ -52,7 +52,7 @@ class Propagation {
         std::uint32_t link = 0;
     };
     /// The longest displacement found for a body; counts only in the search that wrote it.
-    struct Note {
+    struct Entry {
         std::uint64_t search = 0;
         double share = 0;
         Way pushed_by;  ///< of no meaning for the first body
@@ -65,17 +65,17 @@ class Propagation {
         friend bool operator<(const Open& left, const Open& right) { return left.share < right.share; }
     };
 
-    bool note(BodyIndex body, double share, const Way& pushed_by);
+    bool extend(BodyIndex body, double share, const Way& pushed_by);
     bool pushNeighbours(const Open& open, const Candidate& candidate, PushGraph& graph);
     void rememberWayTo(BodyIndex body, const Candidate& candidate, PushGraph& graph) const;
     bool pop(Open& open);
 
     std::span<const std::uint32_t> place_;
-    std::vector<Note> notes_;  ///< [bodies of the batch]
+    std::vector<Entry> entries_;  ///< [bodies of the batch]
     std::vector<BodyIndex> moved_;
     std::vector<Open> stack_;    ///< those pushed as far as the present one, which is the furthest
     std::vector<Open> shorter_;  ///< max-heap of the others
-    std::uint64_t search_ = 0;   ///< number of the present search; no entry of notes_ is ever cleared
+    std::uint64_t search_ = 0;   ///< number of the present search; no entry of entries_ is ever cleared
     Vec3 displacement_ = Vec3::Zero();
 };
 

@@ -168,7 +168,7 @@ double speedChange(const BodyStorage& bodies, const VelocitiesBefore& before, st
 
 }  // namespace
 
-void notePositions(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before) {
+void savePositions(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before) {
     before.position.resize(bodies.slots());
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -177,7 +177,7 @@ void notePositions(const BodyStorage& bodies, const Executor& executor, Velociti
     });
 }
 
-void noteVelocities(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before) {
+void saveVelocities(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before) {
     before.v.resize(bodies.slots());
     before.w.resize(bodies.slots());
     before.forced.resize(bodies.slots());
@@ -190,7 +190,7 @@ void noteVelocities(const BodyStorage& bodies, const Executor& executor, Velocit
     });
 }
 
-void noteForced(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before) {
+void saveForced(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before) {
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             if (bodies.kind[i] != BodyKind::hole) before.forced[i] = speedChange(bodies, before, i);
@@ -213,7 +213,7 @@ double heightAfter(const Contact& c, double touched, double closing, double acce
 
 }  // namespace
 
-void noteTouching(const BodyStorage& bodies, double threshold, double time_step, VelocitiesBefore& before,
+void saveTouching(const BodyStorage& bodies, double threshold, double time_step, VelocitiesBefore& before,
                   std::span<Contact> contacts) {
     before.lift.assign(bodies.slots(), Vec3::Zero());
     for (Contact& c : contacts) {

@@ -40,29 +40,29 @@ struct VelocitiesBefore {
 };
 
 /// Notes the positions before advancePositions(). @param before out
-void notePositions(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before);
+void savePositions(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before);
 /// Notes the velocities before advanceVelocities(). @param before out
-void noteVelocities(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before);
+void saveVelocities(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before);
 /// Notes what the forces changed, between advanceVelocities() and the resolution. @param before in and out
-void noteForced(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before);
+void saveForced(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before);
 
 /// Fills in what RestitutionSpeed::touching needs of the contacts, between advanceVelocities() and the resolution.
 /// While a contact is closed by the acceleration a with the closing speed u at the distance z, u² + 2az stays the same.
 /// The motion of bodies that land or bounce counts as not smooth, however slow they are.
 /// @param threshold speed of touching below which nothing bounces [m/s] @param before in and out
-void noteTouching(const BodyStorage& bodies, double threshold, double time_step, VelocitiesBefore& before,
+void saveTouching(const BodyStorage& bodies, double threshold, double time_step, VelocitiesBefore& before,
                   std::span<Contact> contacts);
 
 /// Moves the bodies that bounced off fixed ones to where they are by the end of the step, having bounced when they
 /// touched: beginning the bounce at the end of the step, in the overlap that the correction leaves, would cost time.
-/// @pre noteTouching() in this step, and the resolution is done
+/// @pre saveTouching() in this step, and the resolution is done
 void liftBounced(BodyStorage& bodies, const VelocitiesBefore& before);
 
 /// Completes the step of all awake dynamic bodies that moved smoothly: advancePositions() moved them by the velocity at
 /// the beginning of the step, this adds what is missing to the mean of beginning and end. Under constant forces that is
 /// the exact parabola; bodies at rest, whose velocity does not change, stay where they are. Where an impact changed the
 /// velocity by more than forces could, the mean means nothing and the body is left alone.
-/// @pre notePositions() and noteForced() in this step, and the resolution is done @param jointed [slots] 1 = left to
+/// @pre savePositions() and saveForced() in this step, and the resolution is done @param jointed [slots] 1 = left to
 /// JointFlight; empty = none is @param time_step [s]
 void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, std::span<const std::uint8_t> jointed,
                           double time_step, const Executor& executor);

@@ -81,7 +81,7 @@ void evaluateAll(std::span<const std::uint32_t> group, std::span<const Joint> jo
 }
 
 /// How fast what turns with the free axes does so before the step.
-void noteRotors(std::span<Joint> joints, const BodyStorage& bodies) {
+void saveRotors(std::span<Joint> joints, const BodyStorage& bodies) {
     for (Joint& joint : joints) {
         if (!isActive(joint, bodies.kind)) continue;
         for (std::size_t i = 0; i < joint.free.size(); ++i) {
@@ -107,7 +107,7 @@ bool JointFlight::isResting(const Contact& contact, const BodyStorage& bodies, c
     return parting <= gained;
 }
 
-void JointFlight::noteKicks(std::span<const Joint> joints, const JointGroups& groups, std::size_t group,
+void JointFlight::saveKicks(std::span<const Joint> joints, const JointGroups& groups, std::size_t group,
                             const BodyStorage& bodies, const Motion& motion) {
     const auto pushed = [&](BodyIndex i) { return pushed_[i] != 0; };
     if (!motion.integration.exact_flight || std::ranges::any_of(groups.bodiesOf(group), pushed)) return;
@@ -131,7 +131,7 @@ void JointFlight::begin(std::span<Joint> joints, const JointGroups& groups, cons
         joint.fixed_angular_impulse.setZero();
     }
     if (groups.size() == 0) return;
-    noteRotors(joints, bodies);
+    saveRotors(joints, bodies);
     pushed_.assign(bodies.slots(), 0);
     for (const Contact& contact : motion.contacts) {
         if (isResting(contact, bodies, motion)) pushed_[contact.a] = pushed_[contact.b] = 1;
@@ -144,7 +144,7 @@ void JointFlight::begin(std::span<Joint> joints, const JointGroups& groups, cons
             const BodyIndex i = groups.bodies[k];
             start_[k] = {{bodies.position[i], bodies.orientation[i]}, {bodies.v[i], bodies.w[i]}, Vec3::Zero()};
         }
-        noteKicks(joints, groups, g, bodies, motion);
+        saveKicks(joints, groups, g, bodies, motion);
         const std::span<const std::uint32_t> of_group = groups.jointsOf(g);
         evaluateAll(of_group, joints, bodies, motion.time_step,
                     std::span(blocks_).subspan(groups.joint_begin[g], of_group.size()));

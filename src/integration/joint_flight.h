@@ -56,7 +56,7 @@ class JointFlight {
 
     /// Whether a contact of the last step pushed and is not parting as after an impact.
     static bool isResting(const Contact& contact, const BodyStorage& bodies, const Motion& motion);
-    void noteKicks(std::span<const Joint> joints, const JointGroups& groups, std::size_t group,
+    void saveKicks(std::span<const Joint> joints, const JointGroups& groups, std::size_t group,
                    const BodyStorage& bodies, const Motion& motion);
     void fly(const Flight& flight, std::span<Joint> joints, BodyStorage& bodies);
     void flyWithout(const Flight& flight, BodyStorage& bodies);

@@ -28,14 +28,14 @@ Contact contactOf(const BodyStorage& bodies, const MaterialTable& materials, con
             .reference_impulse = found.reference_impulse};
 }
 
-/// Calls use(piece, place of its first contact), in the order of the contacts.
+/// Calls use(run, place of its first contact), in the order of the contacts.
 template <class Use>
-void forEachPiece(std::span<const FoundContacts> parts, const Use& use) {
+void forEachRun(std::span<const FoundContacts> parts, const Use& use) {
     std::size_t next = 0;
     for (const FoundContacts& part : parts) {
-        for (const FoundContacts::Piece& piece : part.pieces) {
-            use(piece, next);
-            next += piece.count;
+        for (const FoundContacts::Run& run : part.runs) {
+            use(run, next);
+            next += run.count;
         }
     }
 }
@@ -51,7 +51,7 @@ void requireContacts(std::size_t count) {
 
 void FoundContacts::clear() {
     found.clear();
-    pieces.clear();
+    runs.clear();
     grown.clear();
     count = pair_begin = pair_end = 0;
 }
@@ -60,10 +60,10 @@ void FoundContacts::add(std::size_t from, std::size_t contacts, bool stays) {
     if (contacts == 0) return;
     count += contacts;
     const auto size = static_cast<std::uint32_t>(contacts);
-    if (!pieces.empty() && pieces.back().stays == stays && pieces.back().from + pieces.back().count == from) {
-        pieces.back().count += size;
+    if (!runs.empty() && runs.back().stays == stays && runs.back().from + runs.back().count == from) {
+        runs.back().count += size;
     } else {
-        pieces.push_back({static_cast<std::uint32_t>(from), size, stays});
+        runs.push_back({static_cast<std::uint32_t>(from), size, stays});
     }
 }
 
@@ -72,21 +72,20 @@ void FoundContacts::add(std::size_t from, std::size_t contacts, bool stays) {
 void ContactJoiner::moveStaying(std::span<const FoundContacts> parts, std::size_t total,
                                 std::vector<Contact>& contacts) {
     resizeTightly(contacts, std::max(total, contacts.size()));
-    rising_.clear();
-    forEachPiece(parts, [&](const FoundContacts::Piece& piece, std::size_t to) {
-        if (!piece.stays || to == piece.from) return;
-        if (to > piece.from) {
-            rising_.emplace_back(piece, to);
+    moving_up_.clear();
+    forEachRun(parts, [&](const FoundContacts::Run& run, std::size_t to) {
+        if (!run.stays || to == run.from) return;
+        if (to > run.from) {
+            moving_up_.emplace_back(run, to);
         } else {
-            const auto first = contacts.begin() + piece.from;
-            std::move(first, first + piece.count, contacts.begin() + static_cast<std::ptrdiff_t>(to));
+            const auto first = contacts.begin() + run.from;
+            std::move(first, first + run.count, contacts.begin() + static_cast<std::ptrdiff_t>(to));
         }
     });
-    for (std::size_t n = rising_.size(); n-- > 0;) {
-        const auto& [piece, to] = rising_[n];
-        const auto first = contacts.begin() + piece.from;
-        std::move_backward(first, first + piece.count,
-                           contacts.begin() + static_cast<std::ptrdiff_t>(to) + piece.count);
+    for (std::size_t n = moving_up_.size(); n-- > 0;) {
+        const auto& [run, to] = moving_up_[n];
+        const auto first = contacts.begin() + run.from;
+        std::move_backward(first, first + run.count, contacts.begin() + static_cast<std::ptrdiff_t>(to) + run.count);
     }
     contacts.resize(total);
 }
@@ -98,11 +97,11 @@ void ContactJoiner::join(const BodyStorage& bodies, const MaterialTable& materia
     requireContacts(total);
     moveStaying(parts, total, contacts);
     const auto fill = [&](const FoundContacts& part, std::size_t place) {
-        for (const FoundContacts::Piece& piece : part.pieces) {
-            for (std::size_t i = 0; !piece.stays && i < piece.count; ++i) {
-                contacts[place + i] = contactOf(bodies, materials, part.found[piece.from + i]);
+        for (const FoundContacts::Run& run : part.runs) {
+            for (std::size_t i = 0; !run.stays && i < run.count; ++i) {
+                contacts[place + i] = contactOf(bodies, materials, part.found[run.from + i]);
             }
-            place += piece.count;
+            place += run.count;
         }
     };
     executor.forBlocks(

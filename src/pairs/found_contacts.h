@@ -35,7 +35,7 @@ struct FoundContact {
 /// What one thread found, in the order of the pairs.
 struct FoundContacts {
     /// Contacts side by side: those that the step has of the last detection, or of found.
-    struct Piece {
+    struct Run {
         std::uint32_t from;  ///< index of the first, there
         std::uint32_t count;
         bool stays;  ///< they are those of the last detection
@@ -46,13 +46,13 @@ struct FoundContacts {
         std::uint32_t count;  ///< of the new contacts
     };
     std::vector<FoundContact> found;
-    std::vector<Piece> pieces;
+    std::vector<Run> runs;
     std::vector<Grown> grown;
-    std::size_t count = 0;                     ///< of all pieces
+    std::size_t count = 0;                     ///< of all runs
     std::size_t pair_begin = 0, pair_end = 0;  ///< the pairs that the thread tests
 
     void clear();
-    /// Appends contacts. @param from, contacts, stays as of Piece
+    /// Appends contacts. @param from, contacts, stays as of Run
     void add(std::size_t from, std::size_t contacts, bool stays);
 };
 
@@ -68,7 +68,7 @@ class ContactJoiner {
   private:
     void moveStaying(std::span<const FoundContacts> parts, std::size_t total, std::vector<Contact>& contacts);
 
-    std::vector<std::pair<FoundContacts::Piece, std::size_t>> rising_;  ///< pieces that move up, and where to
+    std::vector<std::pair<FoundContacts::Run, std::size_t>> moving_up_;  ///< runs that move up, and where to
 };
 
 }  // namespace cairn

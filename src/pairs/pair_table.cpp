@@ -136,7 +136,7 @@ void PairTable::beginStep(const BodyStorage& bodies, std::span<const std::uint32
         others_[i] = 1;
         any = true;
     }
-    if (any) near_pairs_.drop(others_);
+    if (any) neighbours_.drop(others_);
 }
 
 void PairTable::detect(const PairsInput& input, std::vector<Contact>& contacts) {
@@ -144,7 +144,7 @@ void PairTable::detect(const PairsInput& input, std::vector<Contact>& contacts) 
     findUnmoved(input);
     findBounds(input);
     parts_.resize(static_cast<std::size_t>(input.executor.threads()));
-    near_pairs_.update({bodies.kind, bounds_, bodies.v, unmoved_}, input.broad_phase, input.executor);
+    neighbours_.update({bodies.kind, bounds_, bodies.v, unmoved_}, input.broad_phase, input.executor);
     for (FoundContacts& part : parts_) part.clear();
     forParts(input.executor, [&](FoundContacts& part) { detectPairs(input, contacts, part); });
     addFirst(input.executor);
@@ -166,7 +166,7 @@ void PairTable::followStruck(const PairsInput& input, double fastest, std::vecto
     // The velocities have it by now.
     range.foresight.fall.setZero();
     if (!findStruck(input, range, fastest)) return;
-    near_pairs_.update({input.bodies.kind, bounds_, input.bodies.v, unmoved_}, input.broad_phase, input.executor);
+    neighbours_.update({input.bodies.kind, bounds_, input.bodies.v, unmoved_}, input.broad_phase, input.executor);
     for (FoundContacts& part : parts_) part.clear();
     forParts(input.executor, [&](FoundContacts& part) { followPairs(input, range, contacts, part); });
     if (std::ranges::all_of(parts_, [](const FoundContacts& part) { return part.grown.empty(); })) return;
@@ -182,7 +182,7 @@ void PairTable::followStruck(const PairsInput& input, double fastest, std::vecto
 }
 
 void PairTable::adopt(std::span<const Contact> contacts) {
-    near_pairs_.begin(contacts);
+    neighbours_.begin(contacts);
     known_ = false;
     bounds_.clear();
 }
@@ -211,13 +211,13 @@ void PairTable::change(const PairChange& change, std::vector<Contact>& contacts)
         changed_pairs_.push_back(pair);
     }
     addCameBefore({UINT32_MAX, UINT32_MAX});
-    near_pairs_.replace(change.left, changed_pairs_);
+    neighbours_.replace(change.left, changed_pairs_);
     contacts.swap(changed_contacts_);
     came_.insert(came_.end(), change.came.begin(), change.came.end());
 }
 
 void PairTable::rearrange(const SlotMove& move) {
-    near_pairs_.rearrange(move);
+    neighbours_.rearrange(move);
     cairn::rearrange(ahead_, move, {});
     cairn::rearrange(unmoved_, move, 0);
     cairn::rearrange(bounds_, move, {});
@@ -317,7 +317,7 @@ void PairTable::addGrown(FoundContacts& part) {
     auto grown = part.grown.begin();
     std::size_t begin = 0;
     for (std::size_t n = part.pair_begin; n < part.pair_end; ++n) {
-        ContactPair& pair = near_pairs_.pairs()[n];
+        ContactPair& pair = neighbours_.pairs()[n];
         const std::size_t first = part.count;
         if (pair.touches()) part.add(pair.first, pair.count, true);
         pair.first = static_cast<std::uint32_t>(first);
@@ -334,7 +334,7 @@ void PairTable::addGrown(FoundContacts& part) {
 void PairTable::detectPairs(const PairsInput& input, std::span<const Contact> last, FoundContacts& part) {
     const bool foresees = range_.foresight.time > 0;
     Manifold manifold;
-    for (ContactPair& pair : near_pairs_.pairs().subspan(part.pair_begin, part.pair_end - part.pair_begin)) {
+    for (ContactPair& pair : neighbours_.pairs().subspan(part.pair_begin, part.pair_end - part.pair_begin)) {
         // Most pairs are only near each other, and this is quickly told.
         if (!bounds_[pair.a].overlaps(bounds_[pair.b])) {
             // What is not written need not leave the processor's cache.
@@ -375,7 +375,7 @@ void PairTable::addFirst(const Executor& executor) {
                 if (first == 0) continue;
                 const FoundContacts& part = parts_[t];
                 for (ContactPair& pair :
-                     near_pairs_.pairs().subspan(part.pair_begin, part.pair_end - part.pair_begin)) {
+                     neighbours_.pairs().subspan(part.pair_begin, part.pair_end - part.pair_begin)) {
                     pair.first += static_cast<std::uint32_t>(first);
                 }
             }

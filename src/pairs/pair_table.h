@@ -8,7 +8,7 @@
 #include "body/body_storage.h"
 #include "body/contact.h"
 #include "body/material_table.h"
-#include "broad_phase/near_pairs.h"
+#include "broad_phase/neighbour_list.h"
 #include "pairs/foreseen.h"
 #include "pairs/found_contacts.h"
 #include "parallel/executor.h"
@@ -71,7 +71,7 @@ class PairTable {
     void rearrange(const SlotMove& move);
 
     /// All of them, sorted by (a, b), whether they touch or not.
-    std::span<const ContactPair> pairs() const { return near_pairs_.pairs(); }
+    std::span<const ContactPair> pairs() const { return neighbours_.pairs(); }
     /// [slots] grown by the margin, and by the way ahead with speculative contacts [m, W]; empty before the first
     /// detection.
     std::span<const Bounds> bounds() const { return bounds_; }
@@ -88,7 +88,7 @@ class PairTable {
     void addGrown(FoundContacts& part);
     void addFirst(const Executor& executor);
 
-    NearPairs near_pairs_;
+    NeighbourList neighbours_;
     std::vector<std::uint8_t> others_;   ///< [slots] 1 = its body was removed since the last step
     bool known_ = false;                 ///< the contacts are those of the last detection
     DetectionRange range_;               ///< of the last detection

@@ -13,14 +13,14 @@ namespace cairn {
 /// does not depend on it.
 class HelpChoice {
   public:
-    /// Whether to ask for help this time. To be followed by note().
+    /// Whether to ask for help this time. To be followed by record().
     bool next() {
         trying_ = --until_trial_ <= 0;
         return helps_ != trying_;
     }
 
     /// @param time that it took this way [any unit]
-    void note(double time) {
+    void record(double time) {
         if (!trying_) {
             usual_ = usual_ > 0 ? usual_ + recent * (time - usual_) : time;
             return;

@@ -322,19 +322,19 @@ void BatchJoints::scatter() const {
     for (std::size_t i = 0; i < count_; ++i) groups_[i].report();
 }
 
-void BatchJoints::note(std::vector<double>& noted) const {
-    noted.clear();
+void BatchJoints::save(std::vector<double>& saved) const {
+    saved.clear();
     for (std::size_t i = 0; i < count_; ++i) {
         const std::span<const double> received = groups_[i].received();
-        noted.insert(noted.end(), received.begin(), received.end());
+        saved.insert(saved.end(), received.begin(), received.end());
     }
 }
 
-void BatchJoints::keepPartSince(std::span<const double> noted, double part) {
+void BatchJoints::keepPartSince(std::span<const double> saved, double part) {
     std::size_t row = 0;
     for (std::size_t i = 0; i < count_; ++i) {
         for (double& impulse : groups_[i].received()) {
-            impulse = noted[row] + part * (impulse - noted[row]);
+            impulse = saved[row] + part * (impulse - saved[row]);
             ++row;
         }
     }

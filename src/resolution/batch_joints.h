@@ -86,10 +86,10 @@ class BatchJoints {
                 std::span<const LocalBody> bodies);
     /// Writes the impulses into the blocks.
     void scatter() const;
-    /// The impulses that the rows received so far. @param noted out; keeps its memory
-    void note(std::vector<double>& noted) const;
+    /// The impulses that the rows received so far. @param saved out; keeps its memory
+    void save(std::vector<double>& saved) const;
     /// Takes those received since back to a part.
-    void keepPartSince(std::span<const double> noted, double part);
+    void keepPartSince(std::span<const double> saved, double part);
 
   private:
     static constexpr std::uint32_t none = UINT32_MAX;

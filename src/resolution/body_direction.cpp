@@ -5,7 +5,7 @@
 
 namespace cairn {
 
-void BodyDirection::note(const LocalBatch& batch, const Executor& executor) {
+void BodyDirection::save(const LocalBatch& batch, const Executor& executor) {
     resizeTightly(before_, batch.dynamic_bodies);
     resizeTightly(direction_, batch.dynamic_bodies);
     forEach(before_.size(), executor, [&](std::size_t i) { before_[i] = {batch.bodies[i].v, batch.bodies[i].w}; });

@@ -13,12 +13,12 @@ namespace cairn {
 class BodyDirection {
   public:
     /// Remembers the velocities before a sweep.
-    void note(const LocalBatch& batch, const Executor& executor);
-    /// Adds β times the last direction to the velocities; the new direction is the change since note() plus that.
+    void save(const LocalBatch& batch, const Executor& executor);
+    /// Adds β times the last direction to the velocities; the new direction is the change since save() plus that.
     void accelerate(double beta, LocalBatch& batch, const Executor& executor);
     /// The same of some bodies.
     void accelerate(double beta, LocalBatch& batch, std::size_t begin, std::size_t end);
-    /// Forgets the last direction of some bodies. @pre note()
+    /// Forgets the last direction of some bodies. @pre save()
     void restart(std::size_t begin, std::size_t end);
 
   private:

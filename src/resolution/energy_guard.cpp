@@ -23,7 +23,7 @@ bool hasHistory(const BatchView& batch, std::span<const Contact> contacts) {
 
 void EnergyGuard::begin(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
     watches_ = !isDriven(batch, contacts, bodies);
-    if (watches_) noteMotion(batch.bodies, bodies, before_);
+    if (watches_) saveMotion(batch.bodies, bodies, before_);
 }
 
 bool EnergyGuard::refuses(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies) {

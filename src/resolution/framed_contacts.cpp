@@ -100,7 +100,7 @@ void FramedContacts::visitRolling(std::size_t i, LocalBatch& local) {
     contact.turning = next.tail<3>();
 }
 
-void FramedContacts::note() {
+void FramedContacts::save() {
     for (Framed& contact : contacts_) {
         contact.before = contact.impulse;
         contact.turning_before = contact.turning;

@@ -21,10 +21,10 @@ class FramedContacts {
     void sweepForth(LocalBatch& local);
     void sweepBack(LocalBatch& local);
     /// Remembers the impulses before a sweep.
-    void note();
-    /// What changed since note().
+    void save();
+    /// What changed since save().
     SweepChange change(const LocalBatch& local) const;
-    /// Adds β times the last direction to the impulses; the new direction is the change since note() plus that.
+    /// Adds β times the last direction to the impulses; the new direction is the change since save() plus that.
     void accelerate(double beta);
     /// Forgets the last direction.
     void restart();

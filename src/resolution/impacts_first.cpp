@@ -33,7 +33,7 @@ class ImpactsFirst final : public BatchResolution {
             return resolution_->resolve(batch, contacts, bodies, settings, executor);
         }
         const ResolutionCounts first = resolveImpacts(wanted, batch, contacts, bodies, settings, executor);
-        noteJoints(batch);
+        saveJoints(batch);
         ResolutionSettings rest = settings;
         rest.restitution_threshold = std::numeric_limits<double>::infinity();
         ResolutionCounts counts = resolution_->resolve(batch, contacts, bodies, rest, executor);
@@ -69,7 +69,7 @@ class ImpactsFirst final : public BatchResolution {
     }
 
     /// A resolution writes the impulses of joints, it does not add them.
-    void noteJoints(const BatchView& batch) { joints_.assign(batch.joints.begin(), batch.joints.end()); }
+    void saveJoints(const BatchView& batch) { joints_.assign(batch.joints.begin(), batch.joints.end()); }
     void addJoints(const BatchView& batch) const {
         for (std::size_t i = 0; i < joints_.size(); ++i) {
             for (std::uint32_t row = 0; row < joints_[i].size; ++row) {

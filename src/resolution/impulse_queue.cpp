@@ -177,7 +177,7 @@ class ImpulseQueueResolution final : public BatchResolution {
         std::iota(all_.begin(), all_.end(), 0U);
         const RunOutcome outcome = runAll(settings, counts);
         if (outcome.still_closing && settings.shock_propagation) {
-            solver_.batch.note(before_shock_);
+            solver_.batch.save(before_shock_);
             const ShockOutcome shock = shock_propagation_.run(solver_, constants_.shock_iterations);
             counts.shock_iterations = shock.iterations;
             counts.shock_batches = shock.stages > 0 ? 1 : 0;

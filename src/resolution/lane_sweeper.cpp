@@ -257,7 +257,7 @@ void LaneSweeper<Number>::sweepBack(const PgsBatch& pgs) {
 }
 
 template <class Number>
-void LaneSweeper<Number>::note(const PgsBatch& pgs) {
+void LaneSweeper<Number>::save(const PgsBatch& pgs) {
     resizeTightly(before_, contacts_.size());
     forEach(
         before_.size(), pgs.executor, [&](std::size_t i) { before_[i] = contacts_[i].impulse; }, wide_grain);

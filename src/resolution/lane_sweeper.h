@@ -36,13 +36,13 @@ class LaneSweeper {
     void sweepForth(const PgsBatch& pgs);
     void sweepBack(const PgsBatch& pgs);
     /// Remembers the impulses before a sweep.
-    void note(const PgsBatch& pgs);
+    void save(const PgsBatch& pgs);
     /// Gives the contacts that slide their kinetic friction. @return whether any has another one now
     bool releaseSliding(const PgsBatch& pgs, const LaneRange& range);
 
-    /// What changed since note(). The same on any number of threads.
+    /// What changed since save(). The same on any number of threads.
     SweepChange change(const PgsBatch& pgs);
-    /// Adds β times the last direction to the impulses; the new direction is the change since note() plus that.
+    /// Adds β times the last direction to the impulses; the new direction is the change since save() plus that.
     void accelerate(double beta, const PgsBatch& pgs);
     /// Forgets the last direction.
     void restart();

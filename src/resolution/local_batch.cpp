@@ -138,7 +138,7 @@ void LocalBatch::scatter(const BatchView& batch, std::span<Contact> all_contacts
     }
 }
 
-void LocalBatch::note(ResolvedSoFar& resolved) const {
+void LocalBatch::save(ResolvedSoFar& resolved) const {
     resolved.motion.clear();
     for (std::size_t i = 0; i < dynamic_bodies; ++i) resolved.motion.push_back({bodies[i].v, bodies[i].w});
     resolved.impulse.clear();
@@ -148,7 +148,7 @@ void LocalBatch::note(ResolvedSoFar& resolved) const {
     }
     resolved.angular_impulse.clear();
     for (const RollingContact& contact : rolling) resolved.angular_impulse.push_back(contact.impulse_W);
-    joints.note(resolved.joint_impulse);
+    joints.save(resolved.joint_impulse);
 }
 
 void LocalBatch::keepPartSince(const ResolvedSoFar& resolved, double part) {
@@ -162,8 +162,8 @@ void LocalBatch::keepPartSince(const ResolvedSoFar& resolved, double part) {
     }
     for (std::size_t i = 0; i < rolling.size(); ++i) {
         // Those that were prepared later had received nothing.
-        const bool noted = i < resolved.angular_impulse.size();
-        keep(noted ? resolved.angular_impulse[i] : Vec3::Zero(), rolling[i].impulse_W);
+        const bool saved = i < resolved.angular_impulse.size();
+        keep(saved ? resolved.angular_impulse[i] : Vec3::Zero(), rolling[i].impulse_W);
     }
     joints.keepPartSince(resolved.joint_impulse, part);
 }

@@ -73,7 +73,7 @@ class LocalBatch {
     void scatterBodies(const BodyState& state) const;
 
     /// @param resolved out; keeps its memory
-    void note(ResolvedSoFar& resolved) const;
+    void save(ResolvedSoFar& resolved) const;
     /// Takes what was resolved since back to a part: velocities and impulses.
     void keepPartSince(const ResolvedSoFar& resolved, double part);
 

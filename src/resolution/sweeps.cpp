@@ -133,9 +133,9 @@ std::int64_t Sweeps<Number>::sweepAll(const PgsBatch& pgs) {
 template <class Number>
 void Sweeps<Number>::sweepOnce(const PgsBatch& pgs, bool measured) {
     if (measured) {
-        sweeper_.note(pgs);
-        framed_.note();
-        direction_.note(local_, pgs.executor);
+        sweeper_.save(pgs);
+        framed_.save();
+        direction_.save(local_, pgs.executor);
     }
     sweeper_.sweepForth(pgs);
     framed_.sweepForth(local_);

@@ -10,7 +10,7 @@
 #include "messages/packing.h"
 #include "world/couplings.h"
 #include "world/joints.h"
-#include "world/quarantine.h"
+#include "world/step_statistics.h"
 
 namespace cairn {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "world/quarantine.h"
+#include "world/limits.h"
 
 namespace cairn {
 

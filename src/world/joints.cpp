@@ -41,7 +41,7 @@ bool isAsleep(const BodyStorage& bodies, const Joint& joint) {
 }
 
 /// From which turns are counted in the next step.
-void notePositions(const JointBlock& block, Joint& joint) {
+void savePositions(const JointBlock& block, Joint& joint) {
     for (std::size_t i = 0; i < joint.free.size(); ++i) joint.free[i].position = block.position[i];
 }
 
@@ -105,7 +105,7 @@ void buildJointBlocks(WorldState& world) {
                 const double per_metre = unitOf(block, bound) / block.reach;
                 bound.slowest = world.settings.resolution.restitution_threshold * per_metre;
             }
-            notePositions(block, world.joints[slot]);
+            savePositions(block, world.joints[slot]);
         }
     }
     for (std::size_t i = 0; i < data.views.size(); ++i) {

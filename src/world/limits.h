@@ -2,10 +2,22 @@
 #pragma once
 
 #include <cstddef>
-
 #include <string_view>
 
 namespace cairn {
+
+/// Bodies faster than this are treated like non-finite ones [m/s, and rad/s]: their next position would lose all
+/// precision.
+inline constexpr double speed_limit = 1e9;
+/// Bodies farther than this from the origin are treated like non-finite ones [m].
+inline constexpr double distance_limit = 1e12;
+/// Masses of bodies [kg]: energies and impulses within these limits stay far from overflow and underflow.
+inline constexpr double smallest_mass = 1e-30;
+inline constexpr double largest_mass = 1e30;
+
+inline bool isUsableMass(double mass) {
+    return mass >= smallest_mass && mass <= largest_mass;
+}
 
 /// Largest magnitude of a gravity factor.
 inline constexpr double gravity_factor_limit = 1e3;

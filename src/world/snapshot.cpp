@@ -9,7 +9,6 @@
 #include "math/rotation.h"
 #include "world/limits.h"
 #include "world/motions.h"
-#include "world/quarantine.h"
 #include "world/saved_fields.h"
 #include "world/saved_filter.h"
 #include "world/saved_joints.h"

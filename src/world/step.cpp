@@ -11,12 +11,13 @@
 #include "world/diagnostics.h"
 #include "world/division.h"
 #include "world/events.h"
+#include "world/faults.h"
 #include "world/joints.h"
 #include "world/motions.h"
 #include "world/pair_laws.h"
-#include "world/quarantine.h"
 #include "world/resolving.h"
 #include "world/sensors.h"
+#include "world/step_statistics.h"
 #include "world/totals.h"
 #include "world/world_state.h"
 
@@ -34,7 +35,7 @@ void timed(WorldState& world, Stage stage, const Work& work) {
     work();
     const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - begin;
     world.statistics.stage_ms[index] = passed.count();
-    help.note(passed.count());
+    help.record(passed.count());
 }
 
 void measureIfAsked(WorldState& world, Measured point) {
@@ -169,21 +170,21 @@ void velocityStage(WorldState& world) {
     std::ranges::copy(data.supports, world.bodies.supports.begin());
     const bool exact = world.settings.integration.exact_flight;
     const bool touching = world.settings.resolution.restitution_speed == RestitutionSpeed::touching;
-    if (exact || touching) noteVelocities(world.bodies, world.executor, data.before);
+    if (exact || touching) saveVelocities(world.bodies, world.executor, data.before);
     advanceVelocities(world.bodies, acceleration, world.settings.sleep, world.settings.timeStep(), world.executor,
                       exact ? std::optional(world.steps) : std::nullopt);
     applySprings(world.springs, world.bodies, world.settings.timeStep());
     measureIfAsked(world, Measured::forces);
     dampVelocities(world.bodies, world.settings.timeStep(), world.executor);
     measureIfAsked(world, Measured::damping);
-    quarantine(world);
-    if (exact) noteForced(world.bodies, world.executor, data.before);
+    fixNonFinite(world);
+    if (exact) saveForced(world.bodies, world.executor, data.before);
     // A law moves its body evenly within a step, so what is carried by it moves as evenly.
     for (std::size_t i = 0; exact && i < data.carried.size(); ++i) {
         if (data.carried[i] == Carried::unevenly) data.before.forced[i] = 0;
     }
     if (touching) {
-        noteTouching(world.bodies, world.settings.resolution.restitution_threshold, world.settings.timeStep(),
+        saveTouching(world.bodies, world.settings.resolution.restitution_threshold, world.settings.timeStep(),
                      data.before, data.contacts);
     }
 }
@@ -208,7 +209,7 @@ void resolveStage(WorldState& world) {
     const DetectionRange range = rangeOf(world);
     resolveContacts(world, bodies, pairsInput(world, range));
     finishJoints(world);
-    quarantine(world);
+    fixNonFinite(world);
     if (weighed) checkEnergy(world, energy);
     measureIfAsked(world, Measured::resolution);
     if (world.settings.integration.exact_flight) {
@@ -265,7 +266,7 @@ void stepWorld(WorldState& world) {
     timed(world, Stage::events, [&] {
         beginEvents(world);
         // What user code did between the steps may have overflowed.
-        quarantine(world);
+        fixNonFinite(world);
         wakeSpringEnds(world.springs, world.bodies);
         prepareJoints(world);
         measureIfAsked(world, Measured::begin);
@@ -275,7 +276,7 @@ void stepWorld(WorldState& world) {
     bool launched = false;
     timed(world, Stage::positions, [&] {
         launched = grantLaunched(world);
-        if (world.settings.integration.exact_flight) notePositions(world.bodies, world.executor, world.data.before);
+        if (world.settings.integration.exact_flight) savePositions(world.bodies, world.executor, world.data.before);
         const JointFlight::Motion motion{world.settings.integration, world.settings.sleep,
                                          world.gravity + world.global_acceleration, world.settings.timeStep(),
                                          world.data.contacts};

@@ -12,7 +12,6 @@
 #include "world/limits.h"
 #include "world/locks.h"
 #include "world/motions.h"
-#include "world/quarantine.h"
 #include "world/requirements.h"
 #include "world/step_rate.h"
 #include "world/world_state.h"

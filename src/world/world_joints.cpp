@@ -11,8 +11,8 @@
 #include "world/couplings.h"
 #include "world/division.h"
 #include "world/joint_axes.h"
+#include "world/limits.h"
 #include "world/motions.h"
-#include "world/quarantine.h"
 #include "world/world_state.h"
 
 namespace cairn {

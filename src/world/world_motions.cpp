@@ -3,8 +3,8 @@
 
 #include "cairn/world.h"
 #include "world/division.h"
+#include "world/limits.h"
 #include "world/motions.h"
-#include "world/quarantine.h"
 #include "world/world_state.h"
 
 namespace cairn {

@@ -1,7 +1,7 @@
 /// The part of World that ranks share.
 #include "cairn/world.h"
 #include "world/division.h"
-#include "world/quarantine.h"
+#include "world/limits.h"
 #include "world/requirements.h"
 #include "world/world_state.h"
 

@@ -5,7 +5,7 @@
 #include "cairn/world.h"
 #include "messages/packing.h"
 #include "world/division.h"
-#include "world/quarantine.h"
+#include "world/step_statistics.h"
 #include "world/totals.h"
 #include "world/world_state.h"
 

@@ -5,9 +5,9 @@
 #include "cairn/world.h"
 #include "geometry/geometry.h"
 #include "world/division.h"
+#include "world/limits.h"
 #include "world/locks.h"
 #include "world/motions.h"
-#include "world/quarantine.h"
 #include "world/requirements.h"
 #include "world/world_state.h"
 

@@ -141,12 +141,12 @@ TEST(Positions, CompletingFreeFallMeetsTheParabolaTo12DigitsAndLeavesDisplacedBo
     for (const BodyIndex i : {free, displaced}) bodies.v[i] = Vec3(3, -4, 60);
     VelocitiesBefore before;
     for (int step = 1; step <= 38400; ++step) {
-        notePositions(bodies, one_thread, before);
+        savePositions(bodies, one_thread, before);
         advancePositions(bodies, time_step, one_thread);
         if (step == 100) bodies.position[displaced] += displacement;
-        noteVelocities(bodies, one_thread, before);
+        saveVelocities(bodies, one_thread, before);
         advanceVelocities(bodies, gravity, {.damping = 0}, time_step, one_thread, step);
-        noteForced(bodies, one_thread, before);
+        saveForced(bodies, one_thread, before);
         completeSmoothMotion(bodies, before, {}, time_step, one_thread);
     }
     const Vec3 exact(30, -40, 600 - 490.5);

@@ -12,7 +12,7 @@ int helped(HelpChoice& choice, int times, double with_help, double alone, double
     for (int i = 0; i < times; ++i) {
         const bool help = choice.next();
         count += help ? 1 : 0;
-        choice.note(scale * (help ? with_help : alone));
+        choice.record(scale * (help ? with_help : alone));
         scale *= growth;
     }
     return count;

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "broad_phase/hash_grids.h"
-#include "broad_phase/near_pairs.h"
+#include "broad_phase/neighbour_list.h"
 #include "broad_phase/scenes.h"
 
 namespace cairn {
@@ -43,7 +43,7 @@ struct Moving {
         bodies.bounds[i].upper += way;
         still[i] = way.isZero(0) ? 1 : 0;
     }
-    NearPairsInput input() const { return {bodies.kind, bodies.bounds, v, still}; }
+    NeighbourListInput input() const { return {bodies.kind, bodies.bounds, v, still}; }
 
     std::vector<BodyPair> overlapping() const {
         std::vector<BodyPair> pairs;
@@ -76,7 +76,7 @@ Moving cloud(Random& random, std::size_t count, double speed) {
     return cloud;
 }
 
-TEST(NearPairs, NoPairIsEverMissing) {
+TEST(NeighbourList, NoPairIsEverMissing) {
     Random random(7);
     Moving moving = cloud(random, 150, 1);
     for (int i = 0; i < 20; ++i) moving.add(random.inBox(2), 0.3, Vec3::Zero(), BodyKind::fixed);
@@ -84,7 +84,7 @@ TEST(NearPairs, NoPairIsEverMissing) {
     moving.v.push_back(Vec3::Zero());
     moving.still.push_back(1);
     CountedGrids grids;
-    NearPairs near;
+    NeighbourList near;
     for (int n = 0; n < 300; ++n) {
         for (BodyIndex i = 0; i < moving.bodies.size(); ++i) moving.move(i, step);
         const auto i = static_cast<BodyIndex>(random.below(moving.bodies.size() - 1));
@@ -101,11 +101,11 @@ TEST(NearPairs, NoPairIsEverMissing) {
     }
 }
 
-TEST(NearPairs, AreSearchedRarelyWhileBodiesMoveOn) {
+TEST(NeighbourList, AreSearchedRarelyWhileBodiesMoveOn) {
     Random random(8);
     Moving moving = cloud(random, 200, 1);
     CountedGrids grids;
-    NearPairs near;
+    NeighbourList near;
     for (int n = 0; n < 80; ++n) {
         for (BodyIndex i = 0; i < moving.bodies.size(); ++i) moving.move(i, step);
         near.update(moving.input(), grids, Executor(1));
@@ -116,13 +116,13 @@ TEST(NearPairs, AreSearchedRarelyWhileBodiesMoveOn) {
     EXPECT_EQ(grids.searches, searches) << "nobody moves";
 }
 
-TEST(NearPairs, KeepTheirContactsUntilTheyPart) {
+TEST(NeighbourList, KeepTheirContactsUntilTheyPart) {
     Moving moving;
     moving.add(Vec3::Zero(), 0.5, Vec3(1, 0, 0));
     moving.add(Vec3(0.9, 0, 0), 0.5, Vec3(1, 0, 0));
     moving.add(Vec3(-0.9, 0, 0), 0.5, Vec3(-9, 0, 0));
     CountedGrids grids;
-    NearPairs near;
+    NeighbourList near;
     near.update(moving.input(), grids, Executor(1));
     ASSERT_EQ(near.pairs().size(), 2);
     EXPECT_FALSE(near.pairs()[0].isTested());
@@ -136,12 +136,12 @@ TEST(NearPairs, KeepTheirContactsUntilTheyPart) {
     EXPECT_EQ(near.pairs()[0].count, 7) << "found again, it is the same pair";
 }
 
-TEST(NearPairs, BeginWithThePairsOfContacts) {
+TEST(NeighbourList, BeginWithThePairsOfContacts) {
     Moving moving;
     for (int i = 0; i < 3; ++i) moving.add(Vec3(0.9 * i, 0, 0), 0.5, Vec3::Zero());
     const std::vector<Contact> contacts = {{.a = 0, .b = 1}, {.a = 1, .b = 2}, {.a = 1, .b = 2}};
     CountedGrids grids;
-    NearPairs near;
+    NeighbourList near;
     near.begin(contacts);
     near.update(moving.input(), grids, Executor(1));
     ASSERT_EQ(near.pairs().size(), 2);
@@ -150,11 +150,11 @@ TEST(NearPairs, BeginWithThePairsOfContacts) {
     EXPECT_EQ(near.pairs()[1].count, 2);
 }
 
-TEST(NearPairs, OfBodiesThatAreOthersBeginAnew) {
+TEST(NeighbourList, OfBodiesThatAreOthersBeginAnew) {
     Moving moving;
     for (int i = 0; i < 4; ++i) moving.add(Vec3(0.9 * i, 0, 0), 0.5, Vec3::Zero());
     CountedGrids grids;
-    NearPairs near;
+    NeighbourList near;
     near.update(moving.input(), grids, Executor(1));
     ASSERT_EQ(near.pairs().size(), 3);
     near.pairs()[0].count = 1;
@@ -165,12 +165,12 @@ TEST(NearPairs, OfBodiesThatAreOthersBeginAnew) {
     EXPECT_FALSE(near.pairs()[0].isTested());
 }
 
-TEST(NearPairs, BodiesOfNoNumberAreSearchedAnew) {
+TEST(NeighbourList, BodiesOfNoNumberAreSearchedAnew) {
     Moving moving;
     moving.add(Vec3::Zero(), 0.5, Vec3::Zero());
     moving.add(Vec3(0.5, 0, 0), 0.5, Vec3::Zero());
     CountedGrids grids;
-    NearPairs near;
+    NeighbourList near;
     near.update(moving.input(), grids, Executor(1));
     moving.bodies.bounds[0].lower.x() = std::numeric_limits<double>::quiet_NaN();
     near.update(moving.input(), grids, Executor(1));

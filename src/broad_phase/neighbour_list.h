@@ -24,8 +24,8 @@ struct ContactPair : BodyPair {
     bool touches() const { return count != 0 && isTested(); }
 };
 
-/// What near pairs depend on; one entry per slot.
-struct NearPairsInput {
+/// What the list depends on; one entry per slot.
+struct NeighbourListInput {
     std::span<const BodyKind> kind;
     std::span<const Bounds> bounds;       ///< [m, W] grown by the contact margin
     std::span<const Vec3> v;              ///< [m/s, W]
@@ -37,10 +37,10 @@ struct NearPairsInput {
 /// Which pairs really overlap is left to the caller, so that nothing depends on when was searched last.
 /// @source Verlet: Computer "experiments" on classical fluids, Physical Review 159 (1967), doi:10.1103/PhysRev.159.98:
 ///         lists of neighbours that last for several time steps
-class NearPairs {
+class NeighbourList {
   public:
     /// Brings the pairs up to date.
-    void update(const NearPairsInput& input, BroadPhase& broad_phase, const Executor& executor);
+    void update(const NeighbourListInput& input, BroadPhase& broad_phase, const Executor& executor);
     /// To be called when all bodies are others: the next update begins anew, with the memory of this one and with the
     /// pairs of the contacts. @param contacts sorted by (a, b)
     void begin(std::span<const Contact> contacts);
@@ -58,8 +58,8 @@ class NearPairs {
     std::span<const ContactPair> pairs() const { return pairs_; }
 
   private:
-    bool findLeft(const NearPairsInput& input, const Executor& executor);
-    void cover(const NearPairsInput& input, bool all, const Executor& executor);
+    bool findLeft(const NeighbourListInput& input, const Executor& executor);
+    void cover(const NeighbourListInput& input, bool all, const Executor& executor);
     void dropLeft();
 
     std::vector<ContactPair> pairs_;

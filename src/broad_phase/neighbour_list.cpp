@@ -1,4 +1,4 @@
-#include "broad_phase/near_pairs.h"
+#include "broad_phase/neighbour_list.h"
 
 #include <algorithm>
 
@@ -37,7 +37,7 @@ void merge(std::span<const BodyPair> added, std::vector<ContactPair>& pairs) {
 
 }  // namespace
 
-void NearPairs::update(const NearPairsInput& input, BroadPhase& broad_phase, const Executor& executor) {
+void NeighbourList::update(const NeighbourListInput& input, BroadPhase& broad_phase, const Executor& executor) {
     const bool searched_before = searched_;
     searched_ = findLeft(input, executor);
     if (!searched_) return;
@@ -47,7 +47,7 @@ void NearPairs::update(const NearPairsInput& input, BroadPhase& broad_phase, con
     merge(new_pairs_, pairs_);
 }
 
-void NearPairs::begin(std::span<const Contact> contacts) {
+void NeighbourList::begin(std::span<const Contact> contacts) {
     pairs_.clear();
     for (std::uint32_t i = 0; i < contacts.size(); ++i) {
         const BodyPair pair{contacts[i].a, contacts[i].b};
@@ -57,21 +57,21 @@ void NearPairs::begin(std::span<const Contact> contacts) {
     kind_.clear();
 }
 
-void NearPairs::drop(std::span<const std::uint8_t> others) {
+void NeighbourList::drop(std::span<const std::uint8_t> others) {
     for (std::size_t i = 0; i < std::min(others.size(), kind_.size()); ++i) {
         if (others[i] != 0) kind_[i] = BodyKind::hole;
     }
     std::erase_if(pairs_, [&](const ContactPair& pair) { return (others[pair.a] | others[pair.b]) != 0; });
 }
 
-void NearPairs::replace(std::span<const std::uint8_t> left, std::vector<ContactPair>& pairs) {
+void NeighbourList::replace(std::span<const std::uint8_t> left, std::vector<ContactPair>& pairs) {
     for (std::size_t i = 0; i < std::min(left.size(), kind_.size()); ++i) {
         if (left[i] != 0) kind_[i] = BodyKind::hole;
     }
     pairs_.swap(pairs);
 }
 
-void NearPairs::rearrange(const SlotMove& move) {
+void NeighbourList::rearrange(const SlotMove& move) {
     for (ContactPair& pair : pairs_) {
         pair.a = move(pair.a);
         pair.b = move(pair.b);
@@ -82,7 +82,7 @@ void NearPairs::rearrange(const SlotMove& move) {
 
 /// Drops the pairs that were searched again and not found; of those that were found only the new ones remain in
 /// new_pairs_.
-void NearPairs::dropLeft() {
+void NeighbourList::dropLeft() {
     std::size_t next = 0;
     std::size_t kept = 0;
     std::erase_if(pairs_, [&](const ContactPair& pair) {
@@ -98,7 +98,7 @@ void NearPairs::dropLeft() {
 }
 
 /// @return whether a body has left the bounds that it was searched with
-bool NearPairs::findLeft(const NearPairsInput& input, const Executor& executor) {
+bool NeighbourList::findLeft(const NeighbourListInput& input, const Executor& executor) {
     const std::size_t slots = input.kind.size();
     covered_.resize(slots);
     kind_.resize(slots, BodyKind::hole);
@@ -115,7 +115,7 @@ bool NearPairs::findLeft(const NearPairsInput& input, const Executor& executor) 
 
 /// Gives new bounds to all that moves, so that the next search is not due soon, or only to those that left theirs:
 /// where somebody does in every update, as among very many bodies, more would not help.
-void NearPairs::cover(const NearPairsInput& input, bool all, const Executor& executor) {
+void NeighbourList::cover(const NeighbourListInput& input, bool all, const Executor& executor) {
     executor.forBlocks(input.kind.size(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             const bool moves = input.still[i] == 0 && input.kind[i] != BodyKind::hole;
