@@ -30,13 +30,14 @@ TEST(PropagatedCorrection, AllocatesNothingOnceItHasSearchedAsFar) {
     const ContactScene start = scene;
     std::vector<std::uint32_t> indices(scene.contacts.size());
     std::iota(indices.begin(), indices.end(), 0U);
+    const std::vector<BodyIndex> moving = scene.movingBodies();
     const ContactsOfBodies table = scene.contactsOfBodies();
     const auto correction = makeCorrection(CorrectionKind::propagated);
     const auto step = [&] {
         std::copy(start.contacts.begin(), start.contacts.end(), scene.contacts.begin());
         const std::size_t before = allocations;
         const CorrectionCounts counts =
-            correction->correct({{}, indices}, table, scene.contacts, scene.state(), scene.remaining_part);
+            correction->correct({moving, indices}, table, scene.contacts, scene.state(), scene.remaining_part);
         EXPECT_EQ(counts.corrected, 5);
         EXPECT_GE(counts.displaced, 100);
         return allocations - before;
