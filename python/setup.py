@@ -17,8 +17,9 @@ class BuildWithCMake(build_ext):
 
     def build_extension(self, ext: Extension) -> None:
         # Options are kept as they are in a folder that is configured already.
-        subprocess.run(["cmake", "--preset", "release", "--log-level=WARNING", "-DCAIRN_BUILD_PYTHON=ON",
-                        f"-DPython_EXECUTABLE={Path(sys.base_prefix) / 'bin' / 'python3'}"], cwd=ROOT, check=True)
+        options = [] if (ROOT / "build/release/CMakeCache.txt").exists() else ["-DCAIRN_SOURCES_AT_ONCE=0"]
+        options += ["-DCAIRN_BUILD_PYTHON=ON", f"-DPython_EXECUTABLE={Path(sys.base_prefix) / 'bin' / 'python3'}"]
+        subprocess.run(["cmake", "--preset", "release", "--log-level=WARNING", *options], cwd=ROOT, check=True)
         subprocess.run(["cmake", "--build", "--preset", "release", "--target", "cairn_python"], cwd=ROOT, check=True)
         target = Path(self.get_ext_fullpath(ext.name))
         target.parent.mkdir(parents=True, exist_ok=True)
