@@ -19,20 +19,20 @@ struct RunOptions {
     RanksOptions ranks;
 };
 
-Scene sceneFrom(const RunOptions& options) {
-    Scene scene = loadScene(options.scene);
-    if (options.duration) scene.duration = requireDuration(*options.duration);
-    return scene;
+SceneSource sourceFrom(const RunOptions& options) {
+    SceneSource source = openScene(options.scene);
+    if (options.duration) source.setDuration(requireDuration(*options.duration));
+    return source;
 }
 
 int runScene(const RunOptions& options) {
     return runOnRanks(options.ranks, options.outputs, [&](Ranks* ranks, const Partition& partition) -> PreparedRun {
-        Scene scene = sceneFrom(options);
-        const Settings settings = settingsFor(scene, overridesFrom(options.overrides, scene));
+        SceneSource source = sourceFrom(options);
+        const Settings settings = settingsFor(source, overridesFrom(options.overrides, source.scene()));
         refuseSameFiles(options.outputs, isBuiltInScene(options.scene) ? "" : options.scene);
-        std::filesystem::path checkpoint = usualCheckpointFile(scene.name);
-        if (ranks == nullptr) return {SceneRun(std::move(scene), settings), std::move(checkpoint)};
-        return {SceneRun(std::move(scene), settings, *ranks, partition), std::move(checkpoint)};
+        std::filesystem::path checkpoint = usualCheckpointFile(source.scene().name);
+        if (ranks == nullptr) return {SceneRun(std::move(source), settings), std::move(checkpoint)};
+        return {SceneRun(std::move(source), settings, *ranks, partition), std::move(checkpoint)};
     });
 }
 

@@ -114,7 +114,7 @@ class RecordingWriter {
   public:
     /// @throws InputError for a frame rate out of range, or one that gives frames of another number of time steps than
     /// hashes; IoError if the file cannot be written
-    RecordingWriter(const std::filesystem::path& file, const Scene& scene, const Settings& settings,
+    RecordingWriter(const std::filesystem::path& file, const SceneSource& source, const Settings& settings,
                     const RecordingOptions& options = {});
     ~RecordingWriter();
     RecordingWriter(const RecordingWriter&) = delete;

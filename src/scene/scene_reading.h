@@ -30,6 +30,7 @@ struct SceneReading {
     ByName<Shape> shapes;            ///< that bodies share
     ByName<BodyTemplate> templates;  ///< of bodies
     ByName<Scene> groups;            ///< templates of groups: bodies, springs and joints
+    std::size_t told = 0;            ///< bodies that were taken out of the scene, which stood before the others
     Scene placed;                    ///< springs, joints and drives of what is included; follow the scene's own
     std::vector<std::filesystem::path> files{};  ///< that are being read, each included by the one before
 };

@@ -2,12 +2,17 @@
 #include <optional>
 
 #include "cairn/scene.h"
+#include "scene/scene_survey.h"
 #include "world/snapshot.h"
 
 namespace cairn {
 
-SceneRun::SceneRun(Scene scene, World world, std::vector<BodyId> ids, std::size_t next_event)
-    : scene_(std::move(scene)), world_(std::move(world)), ids_(std::move(ids)), next_event_(next_event) {
+SceneRun::SceneRun(SceneSource source, World world, std::vector<BodyId> ids, std::size_t next_event)
+    : source_(std::move(source)),
+      world_(std::move(world)),
+      events_(byTime(scene().events)),
+      ids_(std::move(ids)),
+      next_event_(next_event) {
     takeDrives();
 }
 
@@ -20,8 +25,8 @@ struct Head {
     std::size_t next_event = 0;
 };
 
-void saveHead(const Scene& scene, const std::vector<BodyId>& ids, std::size_t next_event, ByteWriter& out) {
-    out.putText(formatScene(scene));
+void saveHead(const SceneSource& source, const std::vector<BodyId>& ids, std::size_t next_event, ByteWriter& out) {
+    out.putText(formatScene(source));
     out.put(std::uint64_t{next_event});
     out.put(std::uint64_t{ids.size()});
     for (const BodyId id : ids) {
@@ -51,7 +56,7 @@ Head loadHead(ByteReader& in, std::string_view source) {
 std::vector<std::byte> SceneRun::save() const {
     std::vector<std::byte> snapshot;
     ByteWriter out(snapshot, FrameKind::scene_run);
-    saveHead(scene_, ids_, next_event_, out);
+    saveHead(source_, ids_, next_event_, out);
     out.putArray(std::span<const std::byte>(world_.save()));
     out.finish();
     return snapshot;
@@ -70,7 +75,7 @@ std::vector<std::byte> SceneRun::savePart() const {
     const std::vector<std::byte> world = world_.savePart();
     std::vector<std::byte> part;
     ByteWriter out(part, FrameKind::run_part);
-    if (world_.ranks()->rank() == 0) saveHead(scene_, ids_, next_event_, out);
+    if (world_.ranks()->rank() == 0) saveHead(source_, ids_, next_event_, out);
     out.putArray(std::span<const std::byte>(world));
     out.finish();
     return part;

@@ -239,9 +239,8 @@ std::string eventsText(const Scene& scene) {
     return "[" + out + "]";
 }
 
-}  // namespace
-
-std::string formatScene(const Scene& scene) {
+/// @param scene all but the bodies
+std::string formatted(const Scene& scene, const SceneSource::Tell& bodies) {
     std::string out = fmt::format("{{\"name\":{},\"duration\":{},\"gravity\":{},\n", text(scene.name),
                                   number(scene.duration), gravityText(scene));
     if (!scene.events.empty()) out += fmt::format("\"events\":{},\n", eventsText(scene));
@@ -250,15 +249,31 @@ std::string formatScene(const Scene& scene) {
     if (scene.frame_motion) {
         out += fmt::format("\"frame_motion\":{},\n", motionText(*scene.frame_motion, Vec3::Zero()));
     }
-    const WrittenShapes shapes(scene);
+    const WrittenShapes shapes(bodies);
     if (const std::string shared = shapes.shared(); !shared.empty()) out += fmt::format("\"shapes\":{},\n", shared);
-    out += "\"bodies\":";
-    out += lines(scene.bodies, [&shapes](const SceneBody& body) { return bodyText(body, shapes); });
+    out += "\"bodies\":[";
+    bool any = false;
+    bodies([&](const SceneBody& body) {
+        out += any ? ",\n" : "\n";
+        out += bodyText(body, shapes);
+        any = true;
+    });
+    out += any ? "\n]" : "]";
     if (!scene.springs.empty()) out += fmt::format(",\n\"springs\":{}", lines(scene.springs, springText));
     if (!scene.joints.empty()) out += fmt::format(",\n\"joints\":{}", lines(scene.joints, jointText));
     if (!scene.drives.empty()) out += fmt::format(",\n\"drives\":{}", lines(scene.drives, driveText));
     if (scene.preset || !scene.settings.empty()) out += fmt::format(",\n\"settings\":{}", settingsText(scene));
     return out + "}\n";
+}
+
+}  // namespace
+
+std::string formatScene(const Scene& scene) {
+    return formatted(scene, [&scene](const SceneSource::Take& take) { std::ranges::for_each(scene.bodies, take); });
+}
+
+std::string formatScene(const SceneSource& source) {
+    return formatted(source.scene(), [&source](const SceneSource::Take& take) { source.forEachBody(take); });
 }
 
 void writeScene(const Scene& scene, const std::filesystem::path& file) {

@@ -41,7 +41,7 @@ std::string arrayText(const Range& range, const ToText& toText) {
 /// The shapes of a scene, of which those with many numbers are written once if several bodies have them.
 class WrittenShapes {
   public:
-    explicit WrittenShapes(const Scene& scene);
+    explicit WrittenShapes(const SceneSource::Tell& bodies);
     /// The shape as the value of a body's key.
     std::string textOf(const Shape& shape) const;
     /// The shapes that bodies name, as the value of the scene's key; empty if there are none.

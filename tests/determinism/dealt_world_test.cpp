@@ -132,6 +132,15 @@ TEST(DealtWorld, DealsOutTheBodiesOfScenes) {
         });
         for (const Partition& partition : {Partition{}, by_hash, restless}) expectSameSteps(scene, 90, partition);
     }
+    for (const char* name : {"heap:60", "pits:3:15", "bed:5:4:3"}) {
+        const SceneSource source = builtInSource(name);
+        runRanks(3, [&](Ranks& ranks) {
+            const SceneRun run(source, settingsFor(source), ranks, by_hash);
+            EXPECT_TRUE(run.scene().bodies.empty());
+            EXPECT_LT(run.world().bodyCount(), run.ids().size());
+        });
+        for (const Partition& partition : {Partition{}, restless}) expectSameSteps(source, 60, partition);
+    }
     // Others are divided by the first step.
     const Scene chain = builtInScene("cradle_swing:5:2");
     runRanks(2, [&](Ranks& ranks) {

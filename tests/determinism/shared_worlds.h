@@ -17,7 +17,7 @@ inline constexpr Partition by_hash{.kind = PartitionKind::hash};
 inline constexpr Partition restless{.kind = PartitionKind::hash, .restless = true};
 
 /// Lets a scene run so many steps, alone and on three ranks, and expects the same states.
-inline void expectSameSteps(const Scene& scene, int steps, const Partition& partition) {
+inline void expectSameSteps(const SceneSource& scene, int steps, const Partition& partition) {
     SceneRun alone(scene, settingsFor(scene));
     std::vector<std::uint64_t> hashes;
     for (int i = 0; i < steps; ++i) {
