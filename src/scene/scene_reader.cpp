@@ -144,15 +144,19 @@ Scene readSceneIn(const std::filesystem::path& file, std::vector<std::filesystem
 }
 
 SceneSource readSceneSource(const std::filesystem::path& file) {
+    return readWithTemplates(file).source;
+}
+
+SceneWithTemplates readWithTemplates(const std::filesystem::path& file) {
     const std::shared_ptr<const JsonDocument> document = openDocument(file);
     const JsonNode root = document->root();
     const std::vector<std::filesystem::path> files{std::filesystem::weakly_canonical(file)};
-    if (root.value().is_object() && namesBodies(root)) return parseSceneIn(*document, files);
+    if (root.value().is_object() && namesBodies(root)) return {parseSceneIn(*document, files)};
     const auto beginning = std::make_shared<const SceneReading>(readBeginning(root, files));
     SceneReading all = *beginning;
     readEnd(root, all);
-    return {std::move(all.scene),
-            [document, beginning](const SceneSource::Take& take) { tellBodies(*document, *beginning, take); }};
+    const auto tell = [document, beginning](const SceneSource::Take& take) { tellBodies(*document, *beginning, take); };
+    return {SceneSource(std::move(all.scene), tell), beginning->templates};
 }
 
 }  // namespace cairn

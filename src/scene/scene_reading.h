@@ -64,6 +64,13 @@ void readGravity(const JsonNode& node, Scene& scene);
 /// What follows functions of time. After the joints.
 void readDrives(const JsonNode& node, SceneReading& reading);
 
+/// A scene file, and the templates of bodies that it has.
+struct SceneWithTemplates {
+    SceneSource source;
+    ByName<BodyTemplate> templates{};
+};
+/// @throws as readSceneSource()
+SceneWithTemplates readWithTemplates(const std::filesystem::path& file);
 /// A scene that another one may include. @param files that are being read @throws InputError, IoError
 Scene readSceneIn(const std::filesystem::path& file, std::vector<std::filesystem::path> files);
 /// A shape, or the name of a shared one. @throws InputError
