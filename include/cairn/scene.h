@@ -289,10 +289,13 @@ class SceneRun {
     /// A run as it was saved. @param source shown in messages, such as the name of its file
     /// @throws InputError with the offset, for bytes that are truncated, damaged or too new
     static SceneRun restore(std::span<const std::byte> snapshot, std::string_view source = "snapshot");
-    /// As World::savePart(): what this rank has of a run whose world is divided.
-    std::vector<std::byte> savePart() const;
-    /// As World::restoreParts().
-    static SceneRun restoreParts(std::span<const SavedPart> parts);
+    /// As World::saveCommon(), and the events that are still to come; but neither the scene nor, of the world, what
+    /// World::savePart() has.
+    std::vector<std::byte> saveCommon() const;
+    /// As World::restoreParts(), of what World::savePart() has. @param source of the same scene
+    static SceneRun restoreParts(SceneSource source, const SavedPart& common, const ReadPart& read);
+    static SceneRun restoreParts(SceneSource source, const SavedPart& common, const ReadPart& read, Ranks& ranks,
+                                 const Partition& partition = {});
 
   private:
     SceneRun(SceneSource source, const Settings& settings, Ranks* ranks, const Partition& partition);

@@ -47,7 +47,7 @@ WITHOUT: dict[str, str] = {
     **dict.fromkeys(("Ranks", "Traffic", "RankLostError", "RankLateError", "MessageDelay", "Partition", "PartitionKind"), "ranks are for programs in C++"),
     **dict.fromkeys(("runRanks", "mpiRanks", "isStartedByMpi", "partitionNamed", "sumOverRanks"), "likewise"),
     **dict.fromkeys(("World.share", "World.gather", "World.isDivided", "World.sums", "World.meanOverlap", "WorldSums", "World.ranks"), "likewise"),
-    **dict.fromkeys(("SavedPart", "World.savePart", "World.restoreParts", "SceneRun.savePart", "SceneRun.restoreParts"), "likewise"),
+    **dict.fromkeys(("SavedPart", "World.savePart", "World.restoreParts", "ReadPart", "World.saveCommon", "SceneRun.saveCommon", "SceneRun.restoreParts"), "likewise"),
     **dict.fromkeys(("World.isOwn", "FramePart", "captureFramePart", "RecordingPartWriter", "recordingPart"), "likewise"),
     **dict.fromkeys(("RecordingReader.framePart", "RecordingOptions.parts", "RecordingOptions.mark", "RecordingInfo.parts"), "likewise"),
     **dict.fromkeys(("SceneSource", "SceneSurvey", "readSceneSource", "builtInSource", "SceneRun.source"), "Scene: Python has all of it"),

@@ -1,8 +1,10 @@
 /// @file Parts of the text of a scene.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cairn/scene.h"
@@ -53,6 +55,9 @@ class WrittenShapes {
     std::map<std::string, std::string> names_;    ///< of shared shapes, by text
     std::vector<std::string> order_;              ///< texts of shared shapes as they are named
 };
+
+/// The text of a scene in pieces, so that it is nowhere as a whole. @param append takes them
+void writeText(const SceneSource& source, const std::function<void(std::string_view)>& append);
 
 std::string driveText(const SceneDrive& drive);
 std::string gravityText(const Scene& scene);

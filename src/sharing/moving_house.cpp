@@ -85,6 +85,7 @@ void SharedBodies::gather(const DealtOut& world) {
     bodies.endPart();
     bodies.adoptSlots(bodies.nextNumber());
     whole_ = true;
+    is_taken_over_ = false;
 }
 
 /// Takes the bodies that belong elsewhere out of this world. @param out gets them @return whether there are any

@@ -316,26 +316,30 @@ TEST(SharedWorld, GoesOnFromThePartsOfAllRanksOnOthers) {
     go(alone, 50);
     for (const Partition& partition : {Partition{}, by_hash, restless}) {
         std::vector<SavedPart> parts(4);
+        SavedPart common{{}, "common"};
         runRanks(4, [&](Ranks& ranks) {
             SceneRun run(scene, settings);
             run.world().setEventLevel(EventLevel::all);
             run.world().share(ranks, partition);
             go(run, 30);
             run.world().gather();
-            EXPECT_THROW(run.savePart(), InputError);
+            EXPECT_THROW(run.world().savePart(), InputError);
+            EXPECT_THROW(run.saveCommon(), InputError);
             meddle(run);
             go(run, 50);
-            parts[static_cast<std::size_t>(ranks.rank())] = {run.savePart(), "part"};
+            parts[static_cast<std::size_t>(ranks.rank())] = {run.world().savePart(), "part"};
+            if (ranks.rank() == 0) common.bytes = run.saveCommon();
         });
-        SceneRun whole = SceneRun::restoreParts(parts);
-        EXPECT_TRUE(whole.save() == alone.save());
-        EXPECT_THROW(SceneRun::restoreParts(std::span(parts).first(3)), InputError);
+        const auto restored = [&] {
+            return SceneRun::restoreParts(scene, common, [&](std::size_t rank) { return parts.at(rank); });
+        };
+        EXPECT_TRUE(restored().save() == alone.save());
         std::swap(parts[1], parts[2]);
-        EXPECT_THROW(SceneRun::restoreParts(parts), InputError);
+        EXPECT_THROW(restored(), InputError);
         parts[1] = parts[2];
-        EXPECT_THROW(SceneRun::restoreParts(parts), InputError);
+        EXPECT_THROW(restored(), InputError);
         parts[1].bytes.pop_back();
-        EXPECT_THROW(SceneRun::restoreParts(parts), InputError);
+        EXPECT_THROW(restored(), InputError);
     }
 }
 
