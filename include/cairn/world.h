@@ -373,9 +373,8 @@ class World {
     /// A whole world from the parts of all ranks; it may be shared again with any number of ranks.
     /// @throws InputError naming part and offset if they are damaged or not those of one moment
     static World restoreParts(const SavedPart& common, const ReadPart& read);
-    /// The same on ranks that share the world, of any number: each reads some of the parts, and has nothing else, where
-    /// the world could have been dealt out to them (share() with places). Others are read by all, and divided by the
-    /// next step. @param ranks must outlive the world @throws as above, maybe on some of the ranks only
+    /// The same on any number of ranks: each reads some of the parts, and has nothing else, where the world could have
+    /// been dealt out (share() with places); others are read by all. @throws as above, maybe on some of the ranks only
     static World restoreParts(const SavedPart& common, const ReadPart& read, Ranks& ranks,
                               const Partition& partition = {});
     /// As save(), into a buffer whose memory is used again.
