@@ -53,6 +53,28 @@ TEST(SharedWorld, KeepsWhatAGearCouplesTogether) {
     expectSameSteps(scene, 120, restless);
 }
 
+TEST(SharedWorld, TakesBodiesLargerThanARegionAndSuchAsCrossSeveralInAStep) {
+    Scene scene = row(17);
+    SceneBody beam = ballAt({4, 0.3, 2.5});
+    beam.shape = Box{{7, 0.3, 0.1}};
+    beam.linear_velocity = {-1, 0, -3};
+    scene.bodies.push_back(beam);
+    SceneBody ledge = ballAt({4, -1, 0.2});
+    ledge.shape = Box{{9, 0.4, 0.4}};
+    ledge.fixed = true;
+    scene.bodies.push_back(ledge);
+    SceneBody bullet = ballAt({-6, 0, 1.6});
+    bullet.linear_velocity = {500, 0, 0};
+    scene.bodies.push_back(bullet);
+    bullet.position = {13, 0.3, 2.4};
+    bullet.linear_velocity = {-450, 0, -20};
+    scene.bodies.push_back(bullet);
+    for (const PartitionKind kind : {PartitionKind::x, PartitionKind::boxes, PartitionKind::hash}) {
+        expectSameSteps(scene, 60, {.kind = kind}, 8);
+    }
+    expectSameSteps(scene, 60, {.kind = PartitionKind::x, .rebalance_every = 1}, 8);
+}
+
 TEST(SharedWorld, HasBodiesOnOneRankEach) {
     const Scene scene = row(12);
     std::atomic<int> here = 0;
