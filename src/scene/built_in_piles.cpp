@@ -7,7 +7,7 @@ namespace {
 
 using Take = SceneSource::Take;
 
-constexpr double wall = 0.2;  ///< thickness [m]
+constexpr double usual_wall = 0.2;  ///< thickness [m]
 
 /// The numbers that a body is drawn from, whatever bodies were made before it.
 SplitMix64 randomOf(int body) {
@@ -27,8 +27,8 @@ Shape randomShape(SplitMix64& random, double radius) {
 }
 
 /// The ground, and fixed walls on it around fields. @param field inner size of each, and the walls' height [m]
-/// @param columns of fields along x @param rows of them along y
-void tellWalls(const Take& take, const Vec3& field, int columns, int rows) {
+/// @param columns of fields along x @param rows of them along y @param wall thickness [m]
+void tellWalls(const Take& take, const Vec3& field, int columns = 1, int rows = 1, double wall = usual_wall) {
     take(ground());
     const Vec3 pitch = field + Vec3(wall, wall, 0);
     const double length_x = columns * pitch.x();
@@ -80,7 +80,7 @@ SceneSource heapScene(std::string name, int bodies) {
                 int side = 2;
                 while (side * side * side < bodies) ++side;
                 const double width = side * pile_cell;
-                tellWalls(take, {width, width, tidy((layersOf(bodies, side) + 1) * pile_cell)}, 1, 1);
+                tellWalls(take, {width, width, tidy((layersOf(bodies, side) + 1) * pile_cell)});
                 SplitMix64 random(2010);
                 for (int i = 0; i < bodies; ++i) take(pouredBody(i, side, random));
             }};
@@ -92,7 +92,7 @@ SceneSource grainsScene(std::string name, int grains) {
                 int side = 2;
                 while (layers * side * side < grains) ++side;
                 const double width = side * pile_cell;
-                tellWalls(take, {width, width, tidy((layers + 1) * pile_cell)}, 1, 1);
+                tellWalls(take, {width, width, tidy((layers + 1) * pile_cell)});
                 for (int i = 0; i < grains; ++i) {
                     SplitMix64 random = randomOf(i);
                     take(pouredBody(i, side, random));
@@ -104,7 +104,7 @@ SceneSource pitScene(std::string name, int boxes) {
     return {emptyPit(std::move(name)), [boxes](const Take& take) {
                 constexpr double cell = 0.18;  // wider than the largest diagonal
                 constexpr int side = 8;
-                tellWalls(take, {1.5, 1.5, tidy((layersOf(boxes, side) + 1) * cell)}, 1, 1);
+                tellWalls(take, {1.5, 1.5, tidy((layersOf(boxes, side) + 1) * cell)});
                 SplitMix64 random(2026);
                 for (int i = 0; i < boxes; ++i) {
                     Vec3 size;
@@ -120,11 +120,12 @@ SceneSource pitsScene(std::string name, int pits, int bodies) {
     return {emptyPit(std::move(name)), [pits, bodies](const Take& take) {
                 constexpr int side = 5;
                 constexpr double width = side * pile_cell;
+                constexpr double wall = 0.6;  // so that bodies of two pits are never near each other
                 int columns = 1;
                 while (columns * columns < pits) ++columns;
                 const int rows = (pits + columns - 1) / columns;
                 // Walls go from pit to pit, so they are few; batches end at them.
-                tellWalls(take, {width, width, tidy((layersOf(bodies, side) + 1) * pile_cell)}, columns, rows);
+                tellWalls(take, {width, width, tidy((layersOf(bodies, side) + 1) * pile_cell)}, columns, rows, wall);
                 for (int pit = 0; pit < pits; ++pit) {
                     const Vec3 middle((pit % columns + 0.5 - 0.5 * columns) * (width + wall),
                                       (pit / columns + 0.5 - 0.5 * rows) * (width + wall), 0);
@@ -160,7 +161,7 @@ SceneSource bedScene(std::string name, int columns, int rows, int layers) {
     return {emptyPit(std::move(name)), [=](const Take& take) {
                 constexpr double radius = 0.05;
                 constexpr double cell = 2.2 * radius;
-                tellWalls(take, {columns * cell, rows * cell, tidy((layers + 1) * cell)}, 1, 1);
+                tellWalls(take, {columns * cell, rows * cell, tidy((layers + 1) * cell)});
                 for (int i = 0; i < columns * rows * layers; ++i) {
                     SplitMix64 random = randomOf(i);
                     const Vec3 index(i % columns + 0.5 - 0.5 * columns, i / columns % rows + 0.5 - 0.5 * rows,
