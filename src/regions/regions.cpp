@@ -58,12 +58,15 @@ double planeBelow(std::span<Vec3> places, int axis, std::size_t count) {
     const auto at = [&](std::size_t i) { return places.begin() + static_cast<std::ptrdiff_t>(i); };
     std::nth_element(at(0), at(begin), places.end(), isBelow);
     std::partial_sort(at(begin), at(end), places.end(), isBelow);
-    double widest = wide * (places[end - 1][axis] - places[begin][axis]) / static_cast<double>(end - begin);
+    double best = wide * (places[end - 1][axis] - places[begin][axis]) / static_cast<double>(end - begin);
     double plane = places[count][axis];
     for (std::size_t i = begin + 1; i < end; ++i) {
         const double gap = places[i][axis] - places[i - 1][axis];
-        if (gap <= widest) continue;
-        widest = gap;
+        // Of gaps as wide as each other the one nearest to the middle.
+        const std::size_t away = i > count ? i - count : count - i;
+        const double worth = gap * (1 - 0.5 * static_cast<double>(away) / static_cast<double>(nearby + 1));
+        if (worth <= best) continue;
+        best = worth;
         plane = places[i - 1][axis] + gap / 2;
     }
     return plane;

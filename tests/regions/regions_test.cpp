@@ -85,6 +85,9 @@ TEST(Regions, AreCutWhereNobodyIs) {
     EXPECT_EQ(regions.ownerOf({5.7, 0, 0}), 1);
     for (int i = 0; i < 1000; ++i) places[static_cast<std::size_t>(i)].x() = 0.01 * i + (i < 700 ? 0 : 1);
     EXPECT_EQ(Regions({}, 2, places).ownerOf({5.1, 0, 0}), 1) << "too far from the middle";
+    for (int i = 0; i < 1000; ++i) places[static_cast<std::size_t>(i)].x() = i / 10;
+    EXPECT_EQ(Regions({}, 2, places).ownerOf({49, 0, 0}), 0) << "of all gaps the one in the middle";
+    EXPECT_EQ(Regions({}, 2, places).ownerOf({50, 0, 0}), 1);
 }
 
 TEST(Regions, RefuseGridsOfOtherNumbers) {
