@@ -86,19 +86,27 @@ RanksWish parse(const RanksOptions& options) {
     return wish;
 }
 
-/// Prepares the run of one rank; what is wrong with it is wrong on all ranks, and the first one tells.
+/// Prepares the run of one rank; what is wrong with it on any rank ends all, and the first one tells.
 int runShared(Ranks& ranks, const RanksWish& wish, const OutputOptions& outputs, const Prepare& prepare) {
     if (wish.patience > 0) ranks.setPatience(wish.patience);
     std::optional<PreparedRun> prepared;
     std::optional<std::string> wrong;
+    std::optional<std::string> failed;
     try {
         prepared.emplace(prepare(&ranks, wish.partition));
     } catch (const InputError& error) {
         wrong = error.what();
+    } catch (const IoError& error) {
+        failed = error.what();
     }
-    if (const auto said = Together(&ranks).firstOf(wrong)) {
+    Together together(&ranks);
+    if (const auto said = together.firstOf(wrong)) {
         if (ranks.rank() == 0) throw InputError(*said);
         return wrong_use;
+    }
+    if (const auto said = together.firstOf(failed)) {
+        if (ranks.rank() == 0) throw IoError(*said);
+        return run_failed;
     }
     return runToTheEnd(std::move(prepared->run), outputs, prepared->usual_checkpoint, &ranks);
 }

@@ -20,10 +20,7 @@ double quantile(const std::vector<double>& sorted, double part) {
     return sorted[std::max<std::size_t>(rank, 1) - 1];
 }
 
-/// @param plane a body whose shape is a half-space
-bool isBehind(const SceneBody& plane, const Vec3& p_W) {
-    const auto& half_space = std::get<HalfSpace>(plane.shape);
-    const Pose pose{plane.position, plane.orientation.normalized()};
+bool isBehind(const Pose& pose, const HalfSpace& half_space, const Vec3& p_W) {
     return half_space.normal.normalized().dot(pose.toInner(p_W)) < half_space.offset;
 }
 
@@ -53,21 +50,20 @@ void Measurements::add(double ms, std::size_t times, const Statistics& step) {
 
 std::size_t countLost(const SceneRun& run) {
     const World& world = run.world();
-    const std::vector<SceneBody>& bodies = run.scene().bodies;
-    std::vector<const SceneBody*> planes;
-    for (const SceneBody& body : bodies) {
-        if (std::holds_alternative<HalfSpace>(body.shape)) planes.push_back(&body);
+    std::vector<BodyId> planes;
+    for (const BodyId id : run.ids()) {
+        if (world.contains(id) && std::holds_alternative<HalfSpace>(world.shape(id))) planes.push_back(id);
     }
     std::size_t lost = 0;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const BodyId id = run.ids()[i];
-        if (bodies[i].fixed || !world.isOwn(id)) continue;
+    for (const BodyId id : run.ids()) {
+        if (!world.isOwn(id)) continue;
         // The origin of a shape's frame may lie outside of the shape.
         const Vec3 p_W = world.centreOfMass(id);
-        const bool faulty = std::any_of(world.faults().begin(), world.faults().end(),
-                                        [&](const FaultInfo& fault) { return fault.body == id; });
-        const bool behind = std::ranges::any_of(planes, [&](const SceneBody* plane) { return isBehind(*plane, p_W); });
-        if (faulty || behind) ++lost;
+        const auto isHere = [&](BodyId plane) {
+            return isBehind(world.pose(plane), std::get<HalfSpace>(world.shape(plane)), p_W);
+        };
+        const bool faulty = std::ranges::find(world.faults(), id, &FaultInfo::body) != world.faults().end();
+        if (faulty || (!world.isFixed(id) && std::ranges::any_of(planes, isHere))) ++lost;
     }
     return lost;
 }
@@ -76,7 +72,7 @@ Report makeReport(const SceneRun& run, const Measurements& measurements, const W
     const World& world = run.world();
     Report report;
     report.scene = run.scene().name;
-    report.bodies = run.scene().bodies.size();
+    report.bodies = run.ids().size();
     report.threads = world.settings().parallel.threads;
     report.steps = measurements.step_ms.size();
     report.steps_per_second = world.settings().steps_per_second;

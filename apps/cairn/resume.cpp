@@ -19,8 +19,8 @@ struct ResumeOptions {
     RanksOptions ranks;
 };
 
-SceneRun runFrom(const ResumeOptions& options) {
-    SceneRun run = readCheckpoint(options.file);
+SceneRun runFrom(const ResumeOptions& options, Ranks* ranks, const Partition& partition) {
+    SceneRun run = ranks != nullptr ? readCheckpoint(options.file, *ranks, partition) : readCheckpoint(options.file);
     if (options.threads) {
         // Results do not depend on the threads; every other setting would make another run of it.
         Settings settings = run.world().settings();
@@ -49,9 +49,7 @@ void addResume(CLI::App& app, int& exit_code) {
     addRanksOptions(*command, options->ranks);
     command->callback([options, &exit_code] {
         const auto prepare = [&](Ranks* ranks, const Partition& partition) -> PreparedRun {
-            SceneRun run = runFrom(*options);
-            if (ranks != nullptr) run.world().share(*ranks, partition);
-            return {std::move(run), options->file};
+            return {runFrom(*options, ranks, partition), options->file};
         };
         exit_code = runOnRanks(options->ranks, options->outputs, prepare);
     });

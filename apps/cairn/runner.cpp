@@ -23,7 +23,7 @@ constexpr double longest_duration = 1e7;  ///< [s]; about four months
 std::string describeFault(const SceneRun& run, const FaultInfo& fault) {
     const auto found = std::find(run.ids().begin(), run.ids().end(), fault.body);
     const auto index = static_cast<std::size_t>(found - run.ids().begin());
-    const std::string& name = run.scene().bodies.at(index).name;
+    const std::string& name = run.world().name(fault.body);
     return fmt::format("body {}{} failed in time step {} and was fixed: {}", index,
                        name.empty() ? "" : fmt::format(" '{}'", name), fault.step, fault.what);
 }
@@ -115,7 +115,7 @@ class Runner {
         if (checkpoints_) writeCheckpoint();
         tryTo([&] {
             if (records_ && together_.isFirst()) {
-                recording_.emplace(options.record, run_.scene(), settings, recorded_);
+                recording_.emplace(options.record, run_.source(), settings, recorded_);
             }
             if (records_ && together_.isShared()) part_.emplace(options.record, together_.rank(), recorded_);
             if (counts_ && together_.isFirst()) stats_.emplace(options.stats, settings);

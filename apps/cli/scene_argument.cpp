@@ -7,13 +7,26 @@
 
 namespace cairn::cli {
 
+namespace {
+
+void requireFile(const std::string& argument) {
+    if (std::filesystem::exists(argument)) return;
+    throw InputError(
+        fmt::format("there is no built-in scene and no file '{}'; 'cairn scenes' lists the built-in scenes", argument));
+}
+
+}  // namespace
+
 Scene loadScene(const std::string& argument) {
     if (isBuiltInScene(argument)) return builtInScene(argument);
-    if (!std::filesystem::exists(argument)) {
-        throw InputError(fmt::format(
-            "there is no built-in scene and no file '{}'; 'cairn scenes' lists the built-in scenes", argument));
-    }
+    requireFile(argument);
     return readScene(argument);
+}
+
+SceneSource openScene(const std::string& argument) {
+    if (isBuiltInScene(argument)) return builtInSource(argument);
+    requireFile(argument);
+    return readSceneSource(argument);
 }
 
 bool looksLikeRecording(const std::filesystem::path& file) {

@@ -114,7 +114,7 @@ class RecordingWriter {
   public:
     /// @throws InputError for a frame rate out of range, or one that gives frames of another number of time steps than
     /// hashes; IoError if the file cannot be written
-    RecordingWriter(const std::filesystem::path& file, const Scene& scene, const Settings& settings,
+    RecordingWriter(const std::filesystem::path& file, const SceneSource& source, const Settings& settings,
                     const RecordingOptions& options = {});
     ~RecordingWriter();
     RecordingWriter(const RecordingWriter&) = delete;
@@ -186,5 +186,12 @@ void exportCsv(const RecordingReader& recording, const std::filesystem::path& fi
 /// A ParaView time series: OUT.pvd beside a folder of .vtp files with every body's surface; of a recording with
 /// contacts or joints also OUT_forces.pvd, whose lines lead from bodies to where forces act on them. @throws IoError
 void exportVtk(const RecordingReader& recording, const std::filesystem::path& file);
+
+/// A scene file to which an HDF5 file adds bodies, which are read in slices when they are told. Each group of that file
+/// has the name of a template of the scene, with a shape and a material, and arrays with a row for each body that is
+/// like it: `position` [m], and if they are there `orientation` (w, x, y, z), `linear_velocity` [m/s],
+/// `angular_velocity` [rad/s] and `scale`, a factor of the template's lengths. They follow the bodies of the scene, in
+/// the groups' alphabetical order. @throws InputError for other names or arrays, and scenes that name bodies; IoError
+SceneSource readSceneSource(const std::filesystem::path& file, const std::filesystem::path& bodies);
 
 }  // namespace cairn

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -192,6 +193,49 @@ Scene builtInScene(std::string_view name);
 /// True if the name (before a colon) is one of a built-in scene.
 bool isBuiltInScene(std::string_view name);
 
+struct SceneSurvey;
+
+/// A scene whose bodies are told one after the other, so that nobody has to keep them: those of a file are read, and
+/// those of a built-in family made, each time that they are told.
+class SceneSource {
+  public:
+    /// Takes a body of a scene.
+    using Take = std::function<void(const SceneBody&)>;
+    /// Calls what it is given for every body, in their order: the same ones every time.
+    using Tell = std::function<void(const Take&)>;
+
+    /// A scene that is there, with its bodies.
+    SceneSource(Scene scene);  // NOLINT(google-explicit-constructor): wherever one is told, one that is there will do
+    /// @param scene all but its bodies. It has neither springs, joints, drives nor exceptions of pairs, whose bodies
+    /// would have to be there @throws InputError if it has, and what `tell` throws
+    SceneSource(Scene scene, Tell tell);
+
+    /// Everything but bodies that are told.
+    const Scene& scene() const { return scene_; }
+    /// Whether the bodies are told and not in scene().
+    bool isTold() const { return tell_ != nullptr; }
+    /// Changes when the scene is over. @param seconds [s], > 0
+    void setDuration(double seconds) { scene_.duration = seconds; }
+    /// Tells every body. @throws IoError if their file cannot be read any more or is another one now
+    void forEachBody(const Take& take) const;
+    /// The scene with all its bodies. @throws as forEachBody()
+    Scene whole() const;
+    /// What its bodies are like, for the library's own use.
+    const SceneSurvey& survey() const { return *survey_; }
+
+  private:
+    Scene scene_;
+    Tell tell_;
+    std::shared_ptr<const SceneSurvey> survey_;
+};
+
+/// As readScene(), but bodies that nothing else of the file names are read when they are told. @throws as readScene()
+SceneSource readSceneSource(const std::filesystem::path& file);
+/// As builtInScene(), but families that may be large make their bodies when they are told. @throws as builtInScene()
+SceneSource builtInSource(std::string_view name);
+/// As formatScene(), of bodies that are told.
+std::string formatScene(const SceneSource& source);
+
 /// What overrides a scene's own settings.
 struct SettingOverrides {
     std::optional<Preset> preset;                             ///< in place of the scene's
@@ -202,6 +246,8 @@ struct SettingOverrides {
 /// The settings of a run: preset (override, then scene, then performance) scaled to the steps per second and to the
 /// weakest gravity the scene has for long, then the scene's fields, then the overrides. @throws InputError
 Settings settingsFor(const Scene& scene, const SettingOverrides& overrides = {});
+/// The same of bodies that are told.
+Settings settingsFor(const SceneSource& source, const SettingOverrides& overrides = {});
 
 class MotionCurve;
 
@@ -209,18 +255,20 @@ class MotionCurve;
 class SceneRun {
   public:
     /// @throws InputError
-    SceneRun(Scene scene, const Settings& settings);
+    SceneRun(SceneSource source, const Settings& settings);
     /// The same on ranks that share the world from the start, so that not even at the beginning one of them has all
     /// bodies, where the scene allows it (World::share() with places): it has neither springs nor joints, drives,
     /// exceptions of pairs, nor a frame that moves, and what moves in it are balls, boxes, capsules and cylinders
     /// without locks. Other worlds are divided by the first step. @param ranks must outlive the run @throws InputError
-    SceneRun(Scene scene, const Settings& settings, Ranks& ranks, const Partition& partition = {});
+    SceneRun(SceneSource source, const Settings& settings, Ranks& ranks, const Partition& partition = {});
 
-    World& world() { return world_; }              ///< may be changed between steps
-    const World& world() const { return world_; }  ///< as it is after the last step
-    const Scene& scene() const { return scene_; }  ///< as it was given
+    World& world() { return world_; }                      ///< may be changed between steps
+    const World& world() const { return world_; }          ///< as it is after the last step
+    const SceneSource& source() const { return source_; }  ///< as it was given
+    /// As it was given; without bodies if these were told.
+    const Scene& scene() const { return source_.scene(); }
     /// Changes when the run is over. @param seconds [s], > 0
-    void setDuration(double seconds) { scene_.duration = seconds; }
+    void setDuration(double seconds) { source_.setDuration(seconds); }
     /// Ids of the scene's bodies, by index; stale once removed.
     const std::vector<BodyId>& ids() const { return ids_; }
 
@@ -241,19 +289,23 @@ class SceneRun {
     /// A run as it was saved. @param source shown in messages, such as the name of its file
     /// @throws InputError with the offset, for bytes that are truncated, damaged or too new
     static SceneRun restore(std::span<const std::byte> snapshot, std::string_view source = "snapshot");
-    /// As World::savePart(): what this rank has of a run whose world is divided.
-    std::vector<std::byte> savePart() const;
-    /// As World::restoreParts().
-    static SceneRun restoreParts(std::span<const SavedPart> parts);
+    /// As World::saveCommon(), and the events that are still to come; but neither the scene nor, of the world, what
+    /// World::savePart() has.
+    std::vector<std::byte> saveCommon() const;
+    /// As World::restoreParts(), of what World::savePart() has. @param source of the same scene
+    static SceneRun restoreParts(SceneSource source, const SavedPart& common, const ReadPart& read);
+    static SceneRun restoreParts(SceneSource source, const SavedPart& common, const ReadPart& read, Ranks& ranks,
+                                 const Partition& partition = {});
 
   private:
-    SceneRun(Scene scene, const Settings& settings, Ranks* ranks, const Partition& partition);
-    SceneRun(Scene scene, World world, std::vector<BodyId> ids, std::size_t next_event);
+    SceneRun(SceneSource source, const Settings& settings, Ranks* ranks, const Partition& partition);
+    SceneRun(SceneSource source, World world, std::vector<BodyId> ids, std::size_t next_event);
     void apply(const EventAction& action);
     void takeDrives();
 
-    Scene scene_;
+    SceneSource source_;
     World world_;
+    std::vector<SceneEvent> events_;  ///< by time
     std::vector<BodyId> ids_;
     std::vector<std::shared_ptr<const MotionCurve>> curves_;  ///< of Scene::drives, by index
     std::size_t next_event_ = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -26,9 +27,11 @@ namespace cairn {
 
 /// What one rank saved.
 struct SavedPart {
-    std::vector<std::byte> bytes;  ///< of World::savePart() or SceneRun::savePart()
+    std::vector<std::byte> bytes;  ///< of World::savePart(), or of World::saveCommon() or SceneRun::saveCommon()
     std::string source;            ///< for messages, such as the name of its file
 };
+/// Brings what a rank saved. @param rank which
+using ReadPart = std::function<SavedPart(std::size_t rank)>;
 
 /// Sums over all bodies, and over the contacts of the last step. They are rounded once, so that they have the same bits
 /// on any number of ranks.
@@ -362,12 +365,18 @@ class World {
     // --- snapshots ---
     /// Everything that the world is, so that it goes on bit by bit as it would have. @source docs/snapshots.md
     std::vector<std::byte> save() const;
-    /// What this rank has of a divided world, in bytes: the parts of all ranks are the world. @throws InputError for a
-    /// world that is not divided
+    /// What this rank has of a divided world, in bytes: the parts of all ranks, and what they have in common, are the
+    /// world. @throws InputError for a world that is not divided
     std::vector<std::byte> savePart() const;
-    /// A whole world from the parts of all ranks, in their order; it may be shared again with any number of ranks.
+    /// What all ranks have of a divided world; to be called by the first one. @throws InputError as savePart()
+    std::vector<std::byte> saveCommon() const;
+    /// A whole world from the parts of all ranks; it may be shared again with any number of ranks.
     /// @throws InputError naming part and offset if they are damaged or not those of one moment
-    static World restoreParts(std::span<const SavedPart> parts);
+    static World restoreParts(const SavedPart& common, const ReadPart& read);
+    /// The same on any number of ranks: each reads some of the parts, and has nothing else, where the world could have
+    /// been dealt out (share() with places); others are read by all. @throws as above, maybe on some of the ranks only
+    static World restoreParts(const SavedPart& common, const ReadPart& read, Ranks& ranks,
+                              const Partition& partition = {});
     /// As save(), into a buffer whose memory is used again.
     void saveTo(std::vector<std::byte>& buffer) const;
     /// A world as it was saved. @throws InputError with the offset, for bytes that are truncated, damaged or too new

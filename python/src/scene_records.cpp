@@ -175,7 +175,8 @@ void bindSceneFunctions(py::module_& module) {
     module.def("parse_scene", &parseScene, py::arg("json"), py::arg("source") = "text",
                "Reads the text of a scene file; source is shown in messages. Raises InputError.");
     module.def("write_scene", &writeScene, py::arg("scene"), py::arg("file"), "Writes a scene file. Raises IoError.");
-    module.def("format_scene", &formatScene, py::arg("scene"), "The scene as the text of a scene file.");
+    module.def("format_scene", py::overload_cast<const Scene&>(&formatScene), py::arg("scene"),
+               "The scene as the text of a scene file.");
     module.def(
         "built_in_scenes", [] { return py::tuple(py::cast(builtInScenes())); },
         "All built-in scenes, in the order in which they are shown.");

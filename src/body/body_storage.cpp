@@ -42,6 +42,14 @@ void BodyStorage::beginPart() {
     std::iota(homes_.begin(), homes_.end(), 0U);
 }
 
+void BodyStorage::becomePart(std::vector<BodyIndex> homes, std::size_t whole_slots) {
+    forEachBodyField([&](const auto& field) { (this->*field.array).resize(homes.size()); });
+    std::ranges::fill(kind, BodyKind::hole);
+    is_part_ = true;
+    whole_slots_ = whole_slots;
+    homes_ = std::move(homes);
+}
+
 void BodyStorage::endPart() {
     is_part_ = false;
     homes_ = {};

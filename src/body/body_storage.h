@@ -106,6 +106,8 @@ class BodyStorage : public BodyArrays {
     std::size_t wholeSlots() const { return is_part_ ? whole_slots_ : slots(); }
     /// From now on slots may be those of a part of the world.
     void beginPart();
+    /// Becomes a part of a world, of holes alone. @param homes of its slots, ascending @param whole_slots of the world
+    void becomePart(std::vector<BodyIndex> homes, std::size_t whole_slots);
     /// @pre there is a slot for every home
     void endPart();
     /// Leaves the body that was allocated last to another rank, with its number and its home. @pre a part

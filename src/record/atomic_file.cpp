@@ -63,10 +63,14 @@ void writeAll(const Descriptor& out, std::span<const std::byte> bytes, const std
 }  // namespace
 
 void replaceFile(const std::filesystem::path& file, std::span<const std::byte> bytes) {
+    replaceFile(file, [bytes](const AppendBytes& append) { append(bytes); });
+}
+
+void replaceFile(const std::filesystem::path& file, const std::function<void(const AppendBytes&)>& write) {
     const std::filesystem::path beside = file.string() + ".partial";
     try {
         Descriptor out(beside, O_WRONLY | O_CREAT | O_TRUNC, "cannot be written");
-        writeAll(out, bytes, beside);
+        write([&](std::span<const std::byte> bytes) { writeAll(out, bytes, beside); });
         if (repeated([&] { return ::fsync(out.get()); }) < 0) fail(beside, "cannot be made durable", errno);
         if (out.close() < 0) fail(beside, "cannot be closed", errno);
         if (std::rename(beside.c_str(), file.c_str()) < 0) fail(file, "cannot be replaced", errno);

@@ -11,6 +11,7 @@
 
 #include "messages/packing.h"
 #include "record/atomic_file.h"
+#include "scene/scene_writing.h"
 #include "world/byte_stream.h"
 
 namespace cairn {
@@ -41,12 +42,17 @@ std::filesystem::path partFile(const std::filesystem::path& file, std::uint64_t 
     return partsFolder(file) / fmt::format("{}.rank{}", serial, rank);
 }
 
-/// The number that a file of a part begins with; none if it is no such file.
+/// The scene of the run.
+std::filesystem::path sceneFile(const std::filesystem::path& file, std::uint64_t serial) {
+    return partsFolder(file) / fmt::format("{}.scene", serial);
+}
+
+/// The number that a file of a part or of a scene begins with; none if it is no such file.
 std::optional<std::uint64_t> serialOf(const std::filesystem::path& part) {
     const std::string name = part.filename().string();
     std::uint64_t serial = 0;
     const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), serial);
-    if (error != std::errc() || !std::string_view(end).starts_with(".rank")) return std::nullopt;
+    if (error != std::errc() || !std::string_view(end).starts_with('.')) return std::nullopt;
     return serial;
 }
 
@@ -109,16 +115,32 @@ std::vector<Value> together(Ranks& ranks, const Work& work) {
     return all;
 }
 
-/// Writes which files a checkpoint consists of, which makes it the checkpoint.
-void writeNames(const std::filesystem::path& file, std::uint64_t serial, const std::vector<PartMark>& marks) {
+/// Writes the scene. @return its length [bytes]
+std::uint64_t writeSceneOf(const SceneRun& run, const std::filesystem::path& file) {
+    std::uint64_t size = 0;
+    replaceFile(file, [&](const AppendBytes& append) {
+        writeText(run.source(), [&](std::string_view piece) {
+            append(std::as_bytes(std::span(piece)));
+            size += piece.size();
+        });
+    });
+    return size;
+}
+
+/// Writes the scene, which files a checkpoint consists of, and what these have in common, which makes it the
+/// checkpoint.
+void writeNames(const SceneRun& run, const std::filesystem::path& file, std::uint64_t serial,
+                const std::vector<PartMark>& marks) {
     std::vector<std::byte> bytes;
     ByteWriter out(bytes, FrameKind::checkpoint);
     out.put(serial);
+    out.put(writeSceneOf(run, sceneFile(file, serial)));
     out.put(std::uint64_t{marks.size()});
     for (const PartMark& mark : marks) {
         out.put(mark.size);
         out.put(mark.check);
     }
+    out.putArray(std::span<const std::byte>(run.saveCommon()));
     out.finish();
     replaceFile(file, bytes);
 }
@@ -132,17 +154,18 @@ void writeParts(const SceneRun& run, const std::filesystem::path& file) {
     const std::filesystem::path part = partFile(file, serial, static_cast<std::size_t>(ranks.rank()));
     try {
         const std::vector<PartMark> marks = together<PartMark>(ranks, [&] {
-            const std::vector<std::byte> bytes = run.savePart();
+            const std::vector<std::byte> bytes = run.world().savePart();
             replaceFile(part, bytes);
             return markOf(bytes);
         });
         together<bool>(ranks, [&] {
-            if (is_first) writeNames(file, serial, marks);
+            if (is_first) writeNames(run, file, serial, marks);
             return true;
         });
     } catch (const IoError&) {
         std::error_code ignored;
         std::filesystem::remove(part, ignored);
+        if (is_first) std::filesystem::remove(sceneFile(file, serial), ignored);
         throw;
     }
     if (is_first) removeOthers(file, serial);
@@ -153,32 +176,63 @@ void writeWhole(const SceneRun& run, const std::filesystem::path& file) {
     removeOthers(file, std::nullopt);
 }
 
-SceneRun readParts(const std::vector<std::byte>& names, const std::filesystem::path& file) {
-    ByteReader in(names, FrameKind::checkpoint, file.string());
-    const auto serial = in.get<std::uint64_t>();
-    const auto count = in.get<std::uint64_t>();
-    std::vector<SavedPart> parts;
-    for (std::size_t rank = 0; rank < count; ++rank) {
-        const auto size = in.get<std::uint64_t>();
-        const auto check = in.get<std::uint64_t>();
-        const std::filesystem::path part = partFile(file, serial, rank);
-        SavedPart& read = parts.emplace_back(SavedPart{{}, part.string()});
-        try {
-            read.bytes = readFile(part);
-        } catch (const IoError& error) {
-            throw IoError(fmt::format("{}; it is a part of the checkpoint '{}': copy the folder beside it, too",
-                                      error.what(), file.string()));
-        }
-        const PartMark mark = markOf(read.bytes);
-        if (mark.size != size || mark.check != check) {
-            throw InputError(
-                fmt::format("{} is not the part that '{}' names; copy file and folder of a checkpoint "
-                            "together",
-                            part.string(), file.string()));
-        }
+/// What a file says that names the parts of a checkpoint.
+struct Names {
+    std::filesystem::path file;
+    std::uint64_t serial = 0;
+    std::uint64_t scene_size = 0;
+    std::vector<PartMark> marks;
+    SavedPart common;
+};
+
+Names readNames(const std::vector<std::byte>& bytes, const std::filesystem::path& file) {
+    ByteReader in(bytes, FrameKind::checkpoint, file.string());
+    Names names;
+    names.file = file;
+    names.common.source = file.string();
+    names.serial = in.get<std::uint64_t>();
+    names.scene_size = in.get<std::uint64_t>();
+    for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
+        PartMark& mark = names.marks.emplace_back();
+        mark.size = in.get<std::uint64_t>();
+        mark.check = in.get<std::uint64_t>();
     }
+    in.getArray(names.common.bytes);
     in.finish();
-    return SceneRun::restoreParts(parts);
+    return names;
+}
+
+[[noreturn]] void refusePart(const std::filesystem::path& part, const Names& names) {
+    throw InputError(fmt::format("{} is not the part that '{}' names; copy file and folder of a checkpoint together",
+                                 part.string(), names.file.string()));
+}
+
+/// Reads something of the folder. @throws IoError with the remedy
+template <class Read>
+auto readBeside(const Names& names, const Read& read) {
+    try {
+        return read();
+    } catch (const IoError& error) {
+        throw IoError(fmt::format("{}; it is a part of the checkpoint '{}': copy the folder beside it, too",
+                                  error.what(), names.file.string()));
+    }
+}
+
+SavedPart readPart(const Names& names, std::size_t rank) {
+    const std::filesystem::path part = partFile(names.file, names.serial, rank);
+    SavedPart read{readBeside(names, [&] { return readFile(part); }), part.string()};
+    const PartMark mark = markOf(read.bytes);
+    if (rank >= names.marks.size() || mark.size != names.marks[rank].size || mark.check != names.marks[rank].check) {
+        refusePart(part, names);
+    }
+    return read;
+}
+
+SceneSource readSceneOf(const Names& names) {
+    const std::filesystem::path file = sceneFile(names.file, names.serial);
+    SceneSource source = readBeside(names, [&] { return readSceneSource(file); });
+    if (std::filesystem::file_size(file) != names.scene_size) refusePart(file, names);
+    return source;
 }
 
 }  // namespace
@@ -199,8 +253,22 @@ void writeCheckpoint(const SceneRun& run, const std::filesystem::path& file) {
 
 SceneRun readCheckpoint(const std::filesystem::path& file) {
     const std::vector<std::byte> bytes = readFile(file);
-    if (frameKind(bytes) == FrameKind::checkpoint) return readParts(bytes, file);
-    return SceneRun::restore(bytes, file.string());
+    if (frameKind(bytes) != FrameKind::checkpoint) return SceneRun::restore(bytes, file.string());
+    const Names names = readNames(bytes, file);
+    return SceneRun::restoreParts(readSceneOf(names), names.common,
+                                  [&](std::size_t rank) { return readPart(names, rank); });
+}
+
+SceneRun readCheckpoint(const std::filesystem::path& file, Ranks& ranks, const Partition& partition) {
+    const std::vector<std::byte> bytes = readFile(file);
+    if (frameKind(bytes) != FrameKind::checkpoint) {
+        SceneRun run = SceneRun::restore(bytes, file.string());
+        run.world().share(ranks, partition);
+        return run;
+    }
+    const Names names = readNames(bytes, file);
+    return SceneRun::restoreParts(
+        readSceneOf(names), names.common, [&](std::size_t rank) { return readPart(names, rank); }, ranks, partition);
 }
 
 }  // namespace cairn

@@ -14,6 +14,7 @@
 #include "record/frame_series.h"
 #include "record/machine.h"
 #include "record/recording_file.h"
+#include "scene/scene_survey.h"
 
 namespace cairn {
 
@@ -27,14 +28,14 @@ std::string stageNames() {
         [](std::string all, std::string_view name) { return std::move(all) + ',' + std::string(name); });
 }
 
-void writeMetadata(const hdf5::File& file, const std::filesystem::path& path, const Scene& scene,
+void writeMetadata(const hdf5::File& file, const std::filesystem::path& path, const SceneSource& source,
                    const Settings& settings, double frame_rate) {
     hdf5::writeAttribute(file.get(), path, layout::format_attribute, std::string(layout::format_name));
     hdf5::writeAttribute(file.get(), path, layout::format_version_attribute, layout::format_version);
     hdf5::writeAttribute(file.get(), path, layout::version_attribute, std::string(version));
     hdf5::writeAttribute(file.get(), path, layout::machine_attribute, describeMachine());
     hdf5::writeAttribute(file.get(), path, layout::rate_attribute, frame_rate);
-    hdf5::writeText(file, path, layout::scene, formatScene(scene));
+    hdf5::writeText(file, path, layout::scene, formatScene(source));
     const hdf5::Group fields = hdf5::createGroup(file, path, layout::settings);
     for (const SettingField& field : settingFields()) {
         hdf5::writeAttribute(fields.get(), path, std::string(field.name).c_str(), field.get(settings));
@@ -82,17 +83,17 @@ void validate(const RecordingOptions& options, const Settings& settings) {
 }  // namespace
 
 struct RecordingWriter::Impl {
-    Impl(const std::filesystem::path& file_path, const Scene& scene, const Settings& settings,
+    Impl(const std::filesystem::path& file_path, const SceneSource& source, const Settings& settings,
          const RecordingOptions& options)
         : path(file_path),
-          bodies(options.parts == 0 ? scene.bodies.size() : 0),
-          joint_count(options.joints && options.parts == 0 ? scene.joints.size() : 0),
+          bodies(options.parts == 0 ? source.survey().bodies : 0),
+          joint_count(options.joints && options.parts == 0 ? source.scene().joints.size() : 0),
           hash_row(options.hashes_per_frame),
           driver(path),
           file(hdf5::createFile(path, driver, writes)),
           in_parts(options.parts > 0) {
         requireWritten(file ? "cannot be written" : "cannot be created");
-        writeMetadata(file, path, scene, settings, options.frame_rate);
+        writeMetadata(file, path, source, settings, options.frame_rate);
         series.emplace(file, path);
         if (in_parts) {
             hdf5::writeAttribute(file.get(), path, layout::parts_attribute, static_cast<std::int64_t>(options.parts));
@@ -114,7 +115,7 @@ struct RecordingWriter::Impl {
         }
         if (options.joints && !in_parts) {
             hdf5::createGroup(file, path, layout::joints);
-            joints.emplace(file, path, scene.joints.size());
+            joints.emplace(file, path, source.scene().joints.size());
         }
         checked(H5Fstart_swmr_write(file.get()), path, "cannot be made readable while it is written");
         requireWritten("cannot be written");
@@ -212,12 +213,12 @@ struct RecordingWriter::Impl {
     bool failed = false;
 };
 
-RecordingWriter::RecordingWriter(const std::filesystem::path& file, const Scene& scene, const Settings& settings,
+RecordingWriter::RecordingWriter(const std::filesystem::path& file, const SceneSource& source, const Settings& settings,
                                  const RecordingOptions& options) {
     validate(options, settings);
     const hdf5::QuietErrors quiet;
     // cppcheck-suppress useInitializationList ; the errors must be quiet before
-    impl_ = std::make_unique<Impl>(file, scene, settings, options);
+    impl_ = std::make_unique<Impl>(file, source, settings, options);
 }
 
 RecordingWriter::~RecordingWriter() = default;

@@ -7,11 +7,10 @@
 
 namespace cairn {
 
-/// Such as "body 3 'ball'". @pre index < scene.bodies.size()
-inline std::string bodyTitle(const Scene& scene, std::size_t index) {
-    const std::string& name = scene.bodies[index].name;
+/// Such as "body 3 'ball'". @param index of the body in the scene
+inline std::string bodyTitle(const SceneBody& body, std::size_t index) {
     const std::string number = "body " + std::to_string(index);
-    return name.empty() ? number : number + " '" + name + "'";
+    return body.name.empty() ? number : number + " '" + body.name + "'";
 }
 
 }  // namespace cairn

@@ -71,37 +71,6 @@ void addLoad(Scene& scene, const Seesaw& seesaw, double size, double gap, std::i
     }
 }
 
-/// A box, ball or capsule that fits into a ball. @param radius of that ball [m]
-Shape randomShape(SplitMix64& random, double radius) {
-    const std::uint64_t kind = random.next() % 3;
-    if (kind == 0) return Sphere{tidy(radius)};
-    if (kind == 1) {
-        const Vec3 edges = Vec3::Constant(0.75) + 0.25 * random.symmetricVector();
-        return Box{tidy(Vec3(edges * (2 * radius / edges.norm())))};
-    }
-    const double thickness = radius * random.between(0.4, 0.7);
-    return Capsule{tidy(thickness), tidy(2 * (radius - thickness))};
-}
-
-/// The ground, and four fixed walls on it. @param inner between them [m] @param height of them [m]
-void addPit(Scene& scene, double inner, double height) {
-    constexpr double wall = 0.2;
-    scene.bodies.push_back(ground());
-    const double offset = (inner + wall) / 2;
-    for (const double x : {-offset, offset}) {
-        scene.bodies.push_back(fixedBox({wall, inner + 2 * wall, height}, {x, 0, height / 2}));
-    }
-    for (const double y : {-offset, offset}) {
-        scene.bodies.push_back(fixedBox({inner, wall, height}, {0, y, height / 2}));
-    }
-}
-
-/// The middle of the cell of a body, cells filled layer by layer. @param side cells in a row
-Vec3 cellIndex(int body, int side) {
-    const Vec3 index(body % side, body / side % side, body / (side * side));
-    return index + Vec3(0.5 - 0.5 * side, 0.5 - 0.5 * side, 0.5);
-}
-
 }  // namespace
 
 Scene catapultScene(std::string name) {
@@ -182,48 +151,6 @@ Scene wallScene(std::string name, int rows) {
     scene.default_pair = standing_pair;
     scene.bodies.push_back(ground());
     addWall(scene, rows, 0, 0.1);
-    return scene;
-}
-
-Scene pitScene(std::string name, int boxes) {
-    constexpr double smallest = 0.06;
-    constexpr double largest = 0.1;  // edges
-    constexpr double cell = 0.18;    // wider than the largest diagonal
-    constexpr int side = 8;
-    const int layers = (boxes + side * side - 1) / (side * side);
-    Scene scene = emptyScene(std::move(name), 6, {0, 0, -10});
-    addPit(scene, 1.5, tidy((layers + 1) * cell));
-    SplitMix64 random(2026);
-    for (int i = 0; i < boxes; ++i) {
-        Vec3 size;
-        for (double& edge : size) edge = random.between(smallest, largest);
-        SceneBody body = dynamicBody(Box{size}, "oak", cell * cellIndex(i, side));
-        body.orientation = randomOrientation(random);
-        scene.bodies.push_back(std::move(body));
-    }
-    return scene;
-}
-
-Scene heapScene(std::string name, int bodies) {
-    constexpr double largest = 0.08;   // radius of the ball around a body
-    constexpr double smallest = 0.03;  // that of the smallest
-    constexpr double cell = 2.1 * largest;
-    // As many layers as columns: poured out they fill about a fifth of their height, so that the pile is wider than
-    // high and the last bodies do not fall too far, whatever its size.
-    int side = 2;
-    while (side * side * side < bodies) ++side;
-    const int layers = (bodies + side * side - 1) / (side * side);
-    Scene scene = emptyScene(std::move(name), 6, {0, 0, -10});
-    addPit(scene, side * cell, tidy((layers + 1) * cell));
-    SplitMix64 random(2010);
-    for (int i = 0; i < bodies; ++i) {
-        const double radius = random.between(smallest, largest);
-        const Shape shape = randomShape(random, radius);
-        const Vec3 shift = (0.49 * cell - radius) * random.symmetricVector();
-        SceneBody body = dynamicBody(shape, "oak", cell * cellIndex(i, side) + shift);
-        body.orientation = randomOrientation(random);
-        scene.bodies.push_back(std::move(body));
-    }
     return scene;
 }
 

@@ -84,8 +84,14 @@ Scene cradleScene(std::string name, int balls, int moving);
 Scene swingingCradleScene(std::string name, int balls, int moving);
 Scene towerScene(std::string name, int boxes);
 Scene wallScene(std::string name, int rows);
-Scene heapScene(std::string name, int bodies);
-Scene pitScene(std::string name, int boxes);
+
+// Piles and gases, which may be large: each body is made when it is told.
+SceneSource heapScene(std::string name, int bodies);
+SceneSource pitScene(std::string name, int boxes);
+SceneSource pitsScene(std::string name, int pits, int bodies);
+SceneSource gasScene(std::string name, int balls);
+SceneSource bedScene(std::string name, int columns, int rows, int layers);
+SceneSource grainsScene(std::string name, int grains);
 
 // Terrain, moved ground and machines.
 Scene rockfallScene(std::string name);

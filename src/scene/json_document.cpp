@@ -10,9 +10,8 @@ namespace {
 /// Goes over JSON only to find where values end. Where the syntax is wrong it stops anywhere; the parser tells.
 class Skimmer {
   public:
-    Skimmer(std::string_view text, TextRange range) : text_(text), at_(range.begin), end_(range.end) {}
+    Skimmer(PagedText& text, TextRange range) : text_(text), at_(range.begin), end_(range.end) {}
 
-    std::size_t position() const { return at_; }
     bool isAtEnd() const { return at_ >= end_; }
     char next() const { return isAtEnd() ? '\0' : text_[at_]; }
 
@@ -61,13 +60,13 @@ class Skimmer {
         }
     }
 
-    std::string_view text_;
+    PagedText& text_;
     std::size_t at_;
     std::size_t end_;
 };
 
 /// Between the brackets of an array that is a member of the root; none if there is none or the syntax is wrong.
-std::optional<TextRange> arrayOfRoot(std::string_view text, std::string_view key) {
+std::optional<TextRange> arrayOfRoot(PagedText text, std::string_view key) {
     Skimmer skimmer(text, {0, text.size()});
     skimmer.skipSpace();
     if (!skimmer.take('{')) return std::nullopt;
@@ -79,7 +78,7 @@ std::optional<TextRange> arrayOfRoot(std::string_view text, std::string_view key
         skimmer.skipSpace();
         const bool is_array = skimmer.next() == '[';
         const TextRange value = skimmer.skipValue();
-        if (is_array && text.substr(name.begin, name.end - name.begin) == fmt::format("\"{}\"", key)) {
+        if (is_array && text.part(name) == fmt::format("\"{}\"", key)) {
             if (text[value.end - 1] != ']') return std::nullopt;
             return TextRange{value.begin + 1, value.end - 1};
         }
@@ -88,52 +87,54 @@ std::optional<TextRange> arrayOfRoot(std::string_view text, std::string_view key
     return std::nullopt;
 }
 
-/// The document with nothing in the array.
-Json parseAround(std::string_view text, std::string_view source, TextRange hole) {
-    std::string rest(text.substr(0, hole.begin));
-    rest += text.substr(hole.end);
+/// Parses a part of a text. What is wrong with it is told with its place in the whole text.
+Json parsePart(std::string_view part, PagedText text, std::string_view source, const ValuePlace& place) {
     try {
-        return parseJson(rest, source);
+        return parseJsonAt(part, source, place);
     } catch (const SyntaxError&) {
-        checkJsonSyntax(text, source);  // says where it is in the whole text
+        checkJsonSyntax(text.all(), source);
         throw;
     }
 }
 
+/// The document with nothing in the array.
+Json parseAround(PagedText text, std::string_view source, std::optional<TextRange> hole) {
+    if (!hole) return parseJson(text.all(), source);
+    std::string rest(text.part({0, hole->begin}));
+    rest += text.part({hole->end, text.size()});
+    return parsePart(rest, std::move(text), source, {});
+}
+
 }  // namespace
 
-JsonDocument::JsonDocument(std::string_view text, std::string_view source, std::string_view array)
-    : text_(text),
-      source_(source),
+JsonDocument::JsonDocument(PagedText text, std::string source, std::string_view array)
+    : text_(std::move(text)),
+      source_(std::move(source)),
       array_(array),
-      range_(arrayOfRoot(text, array)),
-      root_(range_ ? parseAround(text, source, *range_) : parseJson(text, source)) {}
+      range_(arrayOfRoot(text_, array_)),
+      root_(parseAround(text_, source_, range_)) {}
 
 void JsonDocument::forEachElement(const JsonNode& array, const std::function<void(const JsonNode&)>& visit) const {
     if (!range_) {
         for (std::size_t i = 0; i < array.size(); ++i) visit(array.element(i));
         return;
     }
-    Skimmer skimmer(text_, *range_);
+    PagedText text = text_;
+    Skimmer skimmer(text, *range_);
     skimmer.skipSpace();
     if (skimmer.isAtEnd()) return;
     std::size_t index = 0;
     do {
         skimmer.skipSpace();
-        ValuePlace place{skimmer.skipValue(), std::string(array_), 2};
+        const TextRange range = skimmer.skipValue();
+        ValuePlace place{array_, 2};
         appendIndex(place.path, index);
-        Json value;
-        try {
-            value = parseJsonAt(text_, source_, place);
-        } catch (const SyntaxError&) {
-            checkJsonSyntax(text_, source_);  // in the whole text another character may be the wrong one
-            throw;
-        }
+        const Json value = parsePart(text.part(range), text_, source_, place);
         visit(array.element(index, value));
         ++index;
         skimmer.skipSpace();
     } while (skimmer.take(','));
-    if (!skimmer.isAtEnd()) checkJsonSyntax(text_, source_);
+    if (!skimmer.isAtEnd()) checkJsonSyntax(text.all(), source_);
 }
 
 }  // namespace cairn

@@ -43,9 +43,7 @@ std::string plainReason(std::string reason) {
 /// Reads JSON for its syntax alone.
 class SyntaxReader : public nlohmann::json_sax<Json> {
   public:
-    /// @param offset of what is parsed in the text
-    SyntaxReader(std::string_view text, std::string_view source, std::size_t offset)
-        : text_(text), source_(source), offset_(offset) {}
+    SyntaxReader(std::string_view text, std::string_view source) : text_(text), source_(source) {}
 
     bool null() override { return true; }
     bool boolean(bool /*value*/) override { return true; }
@@ -61,7 +59,7 @@ class SyntaxReader : public nlohmann::json_sax<Json> {
     bool key(string_t& /*name*/) override { return true; }
 
     bool parse_error(std::size_t position, const std::string& /*token*/, const Json::exception& error) override {
-        const std::size_t offset = offset_ + (position > 0 ? position - 1 : 0);
+        const std::size_t offset = position > 0 ? position - 1 : 0;
         const auto [line, column] = lineAndColumn(text_, offset);
         const bool not_finite = offset < text_.size() && (text_[offset] == 'N' || text_[offset] == 'I');
         throw SyntaxError(fmt::format("{}:{}:{}: {}{}", source_, line, column, plainReason(error.what()),
@@ -74,14 +72,13 @@ class SyntaxReader : public nlohmann::json_sax<Json> {
   private:
     std::string_view text_;
     std::string_view source_;
-    std::size_t offset_;
 };
 
 /// Builds a value, refusing what JSON allows but a scene must not have: keys given twice and endless nesting.
 class DocumentBuilder : public SyntaxReader {
   public:
     DocumentBuilder(std::string_view text, std::string_view source, const ValuePlace& place)
-        : SyntaxReader(text, source, place.range.begin), place_(place) {}
+        : SyntaxReader(text, source), place_(place) {}
 
     Json take() { return std::move(root_); }
 
@@ -169,18 +166,17 @@ class DocumentBuilder : public SyntaxReader {
 }  // namespace
 
 Json parseJson(std::string_view text, std::string_view source) {
-    return parseJsonAt(text, source, {{0, text.size()}, {}, 0});
+    return parseJsonAt(text, source, {});
 }
 
 Json parseJsonAt(std::string_view text, std::string_view source, const ValuePlace& place) {
     DocumentBuilder builder(text, source, place);
-    const std::string_view value = text.substr(place.range.begin, place.range.end - place.range.begin);
-    Json::sax_parse(value.begin(), value.end(), &builder);
+    Json::sax_parse(text.begin(), text.end(), &builder);
     return builder.take();
 }
 
 void checkJsonSyntax(std::string_view text, std::string_view source) {
-    SyntaxReader reader(text, source, 0);
+    SyntaxReader reader(text, source);
     Json::sax_parse(text.begin(), text.end(), &reader);
 }
 

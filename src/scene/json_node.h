@@ -27,15 +27,8 @@ class SyntaxError : public InputError {
     using InputError::InputError;
 };
 
-/// A part of a text.
-struct TextRange {
-    std::size_t begin = 0;  ///< [bytes]
-    std::size_t end = 0;    ///< one behind the last [bytes]
-};
-
 /// Where in a document a value stands that is parsed by itself.
 struct ValuePlace {
-    TextRange range{};      ///< of the document's text; for the line of wrong syntax
     std::string path;       ///< such as `bodies[3]`, for messages
     std::size_t depth = 0;  ///< levels around it
 };
@@ -43,7 +36,7 @@ struct ValuePlace {
 /// Parses a text. @param source shown in messages, such as the file's name
 /// @throws SyntaxError with line and column, InputError with the path for keys given twice or too deep nesting
 Json parseJson(std::string_view text, std::string_view source);
-/// Parses one value of a text. @throws as above; at the end of the range as at the end of a text
+/// Parses one value of a document. @throws as above, with line and column in the text of the value
 Json parseJsonAt(std::string_view text, std::string_view source, const ValuePlace& place);
 /// Reads a text and builds nothing. @throws SyntaxError
 void checkJsonSyntax(std::string_view text, std::string_view source);

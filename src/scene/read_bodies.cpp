@@ -218,7 +218,7 @@ void readBodyInto(const JsonNode& node, SceneReading& reading) {
     checkBody(node, body, reading);
     if (const auto name = node.find("name")) {
         body.name = name->text();
-        const auto [other, added] = reading.by_name.emplace(body.name, reading.scene.bodies.size());
+        const auto [other, added] = reading.by_name.emplace(body.name, reading.told + reading.scene.bodies.size());
         if (!added) {
             name->fail(fmt::format("is '{}' as that of bodies[{}]; a name must be unique", body.name, other->second));
         }

@@ -67,7 +67,7 @@ SceneEvent readEvent(const JsonNode& node, const SceneReading& reading) {
     event.action = readBodyAction(node, action, kinds.front(), body);
     if (reading.scene.bodies[body].fixed && kinds.front() != "remove") {
         body_node->fail(fmt::format("is {}, which is fixed and so ignores {}; a fixed body can only be removed",
-                                    bodyTitle(reading.scene, body), kinds.front()));
+                                    bodyTitle(reading.scene.bodies[body], body), kinds.front()));
     }
     return event;
 }
@@ -87,7 +87,7 @@ void checkRemovals(const JsonNode& node, const Scene& scene) {
                         const JsonNode event = node.element(i);
                         event.required("body", "a body")
                             .fail(fmt::format("is {}, which events[{}] removed at {} s; events must come before it",
-                                              bodyTitle(scene, action.body), found->second,
+                                              bodyTitle(scene.bodies[action.body], action.body), found->second,
                                               scene.events[found->second].time));
                     }
                     if constexpr (std::is_same_v<std::decay_t<decltype(action)>, RemoveBody>) {

@@ -10,6 +10,7 @@
 
 #include "cairn/scene.h"
 #include "joints/joint_kinds.h"
+#include "scene/scaled_shape.h"
 
 namespace cairn {
 namespace {
@@ -257,6 +258,11 @@ void requireScale(double value, std::string_view what) {
 }
 
 }  // namespace
+
+Shape scaledShape(const Shape& shape, double factor) {
+    requireScale(factor, "lengths");
+    return scaledShape(shape, Factors({factor, 1, factor * factor * factor}));
+}
 
 Scene scaled(Scene scene, const Scales& scales) {
     requireScale(scales.length, "lengths");

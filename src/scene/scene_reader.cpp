@@ -2,8 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
-#include <new>
+#include <memory>
 
 #include "integration/motion_curve.h"
 #include "scene/scene_reading.h"
@@ -53,52 +52,14 @@ void readFrameMotion(const JsonNode& node, Scene& scene) {
         node.fail("turns; the frame of a scene does not, remove spin or turns");
 }
 
-std::string textOf(const std::filesystem::path& file) {
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(file, error);
-    std::ifstream stream(file, std::ios::binary);
-    std::string text;
-    if (!error && stream) {
-        try {
-            text.resize(size);
-        } catch (const std::bad_alloc&) {
-            throw IoError(fmt::format("{}: cannot be read; its {} bytes are more than the memory that is free",
-                                      file.string(), size));
-        }
-        stream.read(text.data(), static_cast<std::streamsize>(size));
-        text.resize(static_cast<std::size_t>(stream.gcount()));
-    }
-    if (error || !stream.is_open() || stream.bad()) {
-        throw IoError(fmt::format("{}: cannot be read ({}); give the path of a scene file", file.string(),
-                                  error ? error.message() : "not readable"));
-    }
-    return text;
-}
-
-/// What names other things, and what it names.
-void readContents(const JsonDocument& document, SceneReading& reading) {
-    const JsonNode root = document.root();
-    if (const auto node = root.find("materials")) readMaterials(*node, reading);
-    if (const auto node = root.find("contacts")) readContacts(*node, reading);
-    const auto filters = root.find("filters");
-    if (filters) readGroups(*filters, reading);
-    if (const auto node = root.find("shapes")) readSharedShapes(*node, reading);
-    if (const auto node = root.find("templates")) readTemplates(*node, reading);
+JsonNode bodiesOf(const JsonNode& root) {
     const JsonNode bodies = root.required("bodies", "an array of bodies; it may be empty");
     bodies.expectArray("an array of bodies; it may be empty");
-    document.forEachElement(bodies, [&reading](const JsonNode& body) { readBodyInto(body, reading); });
-    if (const auto node = root.find("includes")) readIncludes(*node, reading);
-    if (filters) readFilterExceptions(*filters, reading);
-    if (const auto node = root.find("events")) readEvents(*node, reading);
-    if (const auto node = root.find("springs")) readSprings(*node, reading);
-    if (const auto node = root.find("joints")) readJoints(*node, reading);
-    addPlaced(reading);
-    if (const auto node = root.find("drives")) readDrives(*node, reading);
+    return bodies;
 }
 
-Scene parseSceneIn(std::string_view json, std::string_view source, std::vector<std::filesystem::path> files) {
-    const JsonDocument document(json, source, "bodies");
-    const JsonNode root = document.root();
+/// What stands before the bodies: what is about all of the scene, and what bodies name.
+SceneReading readBeginning(const JsonNode& root, std::vector<std::filesystem::path> files) {
     root.expectKeys({"name", "duration", "gravity", "events", "materials", "contacts", "filters", "frame_motion",
                      "shapes", "templates", "bodies", "includes", "springs", "joints", "drives", "settings"});
     SceneReading reading;
@@ -107,16 +68,69 @@ Scene parseSceneIn(std::string_view json, std::string_view source, std::vector<s
     scene.name = root.required("name", "a text that is not empty").text();
     scene.duration = root.required("duration", "a number above 0 [s]").positive();
     readGravity(root.required("gravity", "an array of three numbers [m/s²], or a function of time"), scene);
-    readContents(document, reading);
-    if (const auto node = root.find("frame_motion")) readFrameMotion(*node, scene);
-    if (const auto node = root.find("settings")) readSettings(*node, scene);
+    if (const auto node = root.find("materials")) readMaterials(*node, reading);
+    if (const auto node = root.find("contacts")) readContacts(*node, reading);
+    if (const auto node = root.find("filters")) readGroups(*node, reading);
+    if (const auto node = root.find("shapes")) readSharedShapes(*node, reading);
+    if (const auto node = root.find("templates")) readTemplates(*node, reading);
+    return reading;
+}
+
+/// What stands behind the bodies, and may name them.
+void readEnd(const JsonNode& root, SceneReading& reading) {
+    if (const auto node = root.find("includes")) readIncludes(*node, reading);
+    if (const auto node = root.find("filters")) readFilterExceptions(*node, reading);
+    if (const auto node = root.find("events")) readEvents(*node, reading);
+    if (const auto node = root.find("springs")) readSprings(*node, reading);
+    if (const auto node = root.find("joints")) readJoints(*node, reading);
+    addPlaced(reading);
+    if (const auto node = root.find("drives")) readDrives(*node, reading);
+    if (const auto node = root.find("frame_motion")) readFrameMotion(*node, reading.scene);
+    if (const auto node = root.find("settings")) readSettings(*node, reading.scene);
+}
+
+Scene parseSceneIn(const JsonDocument& document, std::vector<std::filesystem::path> files) {
+    const JsonNode root = document.root();
+    SceneReading reading = readBeginning(root, std::move(files));
+    document.forEachElement(bodiesOf(root), [&reading](const JsonNode& body) { readBodyInto(body, reading); });
+    readEnd(root, reading);
     return std::move(reading.scene);
+}
+
+/// Whether something of the scene names bodies or adds some, so that all must be there.
+bool namesBodies(const JsonNode& root) {
+    for (const std::string_view key : {"includes", "springs", "joints", "drives"}) {
+        if (root.find(key)) return true;
+    }
+    if (const auto filters = root.find("filters"); filters && filters->find("exceptions")) return true;
+    const auto events = root.find("events");
+    for (std::size_t i = 0; events && i < events->size(); ++i) {
+        if (events->element(i).find("body")) return true;
+    }
+    return false;
+}
+
+/// Tells the bodies of a document, of which each is read and given away. @param beginning what they name
+void tellBodies(const JsonDocument& document, const SceneReading& beginning, const SceneSource::Take& take) {
+    SceneReading reading = beginning;
+    const JsonNode root = document.root();
+    document.forEachElement(bodiesOf(root), [&](const JsonNode& body) {
+        readBodyInto(body, reading);
+        take(reading.scene.bodies.back());
+        reading.scene.bodies.clear();
+        ++reading.told;
+    });
+}
+
+std::shared_ptr<const JsonDocument> openDocument(const std::filesystem::path& file) {
+    return std::make_shared<const JsonDocument>(PagedText(std::make_shared<const TextFile>(file)), file.string(),
+                                                "bodies");
 }
 
 }  // namespace
 
 Scene parseScene(std::string_view json, std::string_view source) {
-    return parseSceneIn(json, source, {});
+    return parseSceneIn(JsonDocument(PagedText(json), std::string(source), "bodies"), {});
 }
 
 Scene readScene(const std::filesystem::path& file) {
@@ -124,9 +138,25 @@ Scene readScene(const std::filesystem::path& file) {
 }
 
 Scene readSceneIn(const std::filesystem::path& file, std::vector<std::filesystem::path> files) {
-    const std::string text = textOf(file);
+    const auto document = openDocument(file);
     files.push_back(std::filesystem::weakly_canonical(file));
-    return parseSceneIn(text, file.string(), std::move(files));
+    return parseSceneIn(*document, std::move(files));
+}
+
+SceneSource readSceneSource(const std::filesystem::path& file) {
+    return readWithTemplates(file).source;
+}
+
+SceneWithTemplates readWithTemplates(const std::filesystem::path& file) {
+    const std::shared_ptr<const JsonDocument> document = openDocument(file);
+    const JsonNode root = document->root();
+    const std::vector<std::filesystem::path> files{std::filesystem::weakly_canonical(file)};
+    if (root.value().is_object() && namesBodies(root)) return {parseSceneIn(*document, files)};
+    const auto beginning = std::make_shared<const SceneReading>(readBeginning(root, files));
+    SceneReading all = *beginning;
+    readEnd(root, all);
+    const auto tell = [document, beginning](const SceneSource::Take& take) { tellBodies(*document, *beginning, take); };
+    return {SceneSource(std::move(all.scene), tell), beginning->templates};
 }
 
 }  // namespace cairn

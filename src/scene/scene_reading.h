@@ -30,6 +30,7 @@ struct SceneReading {
     ByName<Shape> shapes;            ///< that bodies share
     ByName<BodyTemplate> templates;  ///< of bodies
     ByName<Scene> groups;            ///< templates of groups: bodies, springs and joints
+    std::size_t told = 0;            ///< bodies that were taken out of the scene, which stood before the others
     Scene placed;                    ///< springs, joints and drives of what is included; follow the scene's own
     std::vector<std::filesystem::path> files{};  ///< that are being read, each included by the one before
 };
@@ -63,6 +64,13 @@ void readGravity(const JsonNode& node, Scene& scene);
 /// What follows functions of time. After the joints.
 void readDrives(const JsonNode& node, SceneReading& reading);
 
+/// A scene file, and the templates of bodies that it has.
+struct SceneWithTemplates {
+    SceneSource source;
+    ByName<BodyTemplate> templates{};
+};
+/// @throws as readSceneSource()
+SceneWithTemplates readWithTemplates(const std::filesystem::path& file);
 /// A scene that another one may include. @param files that are being read @throws InputError, IoError
 Scene readSceneIn(const std::filesystem::path& file, std::vector<std::filesystem::path> files);
 /// A shape, or the name of a shared one. @throws InputError

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <type_traits>
 
 #include "cairn/scene.h"
 #include "scene/body_title.h"
 #include "scene/drives.h"
-#include "sharing/body_records.h"
+#include "scene/scene_survey.h"
 #include "world/step_rate.h"
 
 namespace cairn {
@@ -37,11 +38,7 @@ double stepsPerSecond(const Scene& scene, const SettingOverrides& overrides) {
 
 /// All gravities that the scene has for long [m/s², W]: not those on the way from one to another.
 std::vector<Vec3> gravities(const Scene& scene) {
-    std::vector<Vec3> all{scene.gravity};
-    if (scene.gravity_law) {
-        const MotionCurve curve(*scene.gravity_law);
-        if (const auto end = curve.end()) all.front() += curve.at(*end).displacement;
-    }
+    std::vector<Vec3> all{firstGravity(scene)};
     for (const SceneEvent& event : scene.events) {
         if (const auto* change = std::get_if<SetGravity>(&event.action)) all.push_back(change->gravity);
     }
@@ -58,22 +55,18 @@ double weakestGravity(const Scene& scene) {
     return weakest;
 }
 
-/// What the sizes of the scene's bodies ask for.
-int stepExponent(const Scene& scene) {
-    std::vector<double> extents;
-    for (const SceneBody& body : scene.bodies) {
-        if (!body.fixed && !body.motion) extents.push_back(middleExtent(body.shape));
-    }
-    return cairn::stepExponent(extents, gravities(scene).front().norm());
-}
-
 /// Runs something and puts what it is about before the text of its errors.
-template <typename Action>
-auto inContext(const std::string& context, Action action) {
+/// @param context a text, or what makes it
+template <typename Context, typename Action>
+auto inContext(const Context& context, Action action) {
     try {
         return action();
     } catch (const InputError& error) {
-        throw InputError(fmt::format("{}: {}", context, error.what()));
+        if constexpr (std::is_invocable_v<Context>) {
+            throw InputError(fmt::format("{}: {}", context(), error.what()));
+        } else {
+            throw InputError(fmt::format("{}: {}", context, error.what()));
+        }
     }
 }
 
@@ -201,32 +194,11 @@ struct BodyAction {
     void operator()(const RemoveBody& a) const { world.removeBody(bodyId(ids, a.body)); }
 };
 
-/// Whether ranks can get their bodies one by one: nothing that all must know names a body that moves.
-bool canBeDealtOut(const Scene& scene) {
-    const bool is_tied = !scene.springs.empty() || !scene.joints.empty() || !scene.drives.empty() ||
-                         !scene.filters.exceptions.empty() || scene.frame_motion.has_value();
-    const auto isDealable = [](const SceneBody& body) {
-        const bool is_fixed = body.fixed || body.motion.has_value();
-        return body.position.allFinite() && (is_fixed || (isSent(body.shape) && body.locked.empty()));
-    };
-    return !is_tied && std::ranges::all_of(scene.bodies, isDealable);
-}
-
-/// Where the bodies that move are [m, W].
-std::vector<Vec3> placesIn(const Scene& scene) {
-    std::vector<Vec3> places;
-    for (const SceneBody& body : scene.bodies) {
-        if (!body.fixed && !body.motion) places.push_back(body.position);
-    }
-    return places;
-}
-
-}  // namespace
-
-Settings settingsFor(const Scene& scene, const SettingOverrides& overrides) {
+/// @param exponent what the sizes of the bodies ask for
+Settings settingsOf(const Scene& scene, int exponent, const SettingOverrides& overrides) {
     const Preset preset = overrides.preset.value_or(scene.preset.value_or(Preset::performance));
     Settings settings = Settings::preset(preset, stepsPerSecond(scene, overrides), weakestGravity(scene));
-    settings = withKnownSteps(settings, stepExponent(scene));
+    settings = withKnownSteps(settings, exponent);
     for (const auto& [name, value] : scene.settings) {
         if (name != steps_field) setField(settings, name, value);
     }
@@ -236,50 +208,61 @@ Settings settingsFor(const Scene& scene, const SettingOverrides& overrides) {
     return settings;
 }
 
-SceneRun::SceneRun(Scene scene, const Settings& settings) : SceneRun(std::move(scene), settings, nullptr, {}) {}
+}  // namespace
 
-SceneRun::SceneRun(Scene scene, const Settings& settings, Ranks& ranks, const Partition& partition)
-    : SceneRun(std::move(scene), settings, &ranks, partition) {}
+Settings settingsFor(const Scene& scene, const SettingOverrides& overrides) {
+    return settingsOf(scene, surveyOf(scene).step_exponent, overrides);
+}
 
-SceneRun::SceneRun(Scene scene, const Settings& settings, Ranks* ranks, const Partition& partition)
-    : scene_(std::move(scene)), world_(withKnownSteps(settings, stepExponent(scene_))) {
-    std::stable_sort(scene_.events.begin(), scene_.events.end(),
-                     [](const SceneEvent& a, const SceneEvent& b) { return a.time < b.time; });
-    const MaterialIds materials = addMaterials(scene_, world_);
-    const GroupIds groups = inContext("filters", [&] { return addGroups(scene_.filters, world_); });
+Settings settingsFor(const SceneSource& source, const SettingOverrides& overrides) {
+    return settingsOf(source.scene(), source.survey().step_exponent, overrides);
+}
+
+SceneRun::SceneRun(SceneSource source, const Settings& settings) : SceneRun(std::move(source), settings, nullptr, {}) {}
+
+SceneRun::SceneRun(SceneSource source, const Settings& settings, Ranks& ranks, const Partition& partition)
+    : SceneRun(std::move(source), settings, &ranks, partition) {}
+
+SceneRun::SceneRun(SceneSource source, const Settings& settings, Ranks* ranks, const Partition& partition)
+    : source_(std::move(source)),
+      world_(withKnownSteps(settings, source_.survey().step_exponent)),
+      events_(byTime(scene().events)) {
+    const MaterialIds materials = addMaterials(scene(), world_);
+    const GroupIds groups = inContext("filters", [&] { return addGroups(scene().filters, world_); });
     inContext("gravity", [&] {
-        if (scene_.gravity_law) requireFunction(*scene_.gravity_law, scene_.gravity);
-        world_.setGravity(scene_.gravity, scene_.gravity_law);
+        if (scene().gravity_law) requireFunction(*scene().gravity_law, scene().gravity);
+        world_.setGravity(scene().gravity, scene().gravity_law);
     });
-    const bool deals_out = ranks != nullptr && canBeDealtOut(scene_);
-    if (deals_out) world_.share(*ranks, partition, placesIn(scene_));
-    ids_.reserve(scene_.bodies.size());
-    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-        inContext(bodyTitle(scene_, i),
-                  [&] { ids_.push_back(world_.addBody(describe(scene_.bodies[i], materials, groups))); });
-    }
-    if (scene_.frame_motion) inContext("frame_motion", [&] { world_.setFrameMotion(scene_.frame_motion); });
-    for (const SceneException& exception : scene_.filters.exceptions) {
+    const SceneSurvey& survey = source_.survey();
+    const bool deals_out = ranks != nullptr && survey.can_be_dealt_out;
+    if (deals_out) world_.share(*ranks, partition, survey.places);
+    ids_.reserve(survey.bodies);
+    source_.forEachBody([&](const SceneBody& body) {
+        inContext([&] { return bodyTitle(body, ids_.size()); },
+                  [&] { ids_.push_back(world_.addBody(describe(body, materials, groups))); });
+    });
+    if (scene().frame_motion) inContext("frame_motion", [&] { world_.setFrameMotion(scene().frame_motion); });
+    for (const SceneException& exception : scene().filters.exceptions) {
         inContext("filters",
                   [&] { world_.setPairTouch(bodyId(ids_, exception.a), bodyId(ids_, exception.b), exception.touch); });
     }
-    for (std::size_t i = 0; i < scene_.springs.size(); ++i) {
-        inContext(fmt::format("spring {}", i), [&] { addSpring(scene_.springs[i], ids_, world_); });
+    for (std::size_t i = 0; i < scene().springs.size(); ++i) {
+        inContext(fmt::format("spring {}", i), [&] { addSpring(scene().springs[i], ids_, world_); });
     }
     std::vector<JointId> joints;
-    for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
+    for (std::size_t i = 0; i < scene().joints.size(); ++i) {
         inContext(fmt::format("joint {}", i),
-                  [&] { joints.push_back(addJoint(scene_.joints[i], ids_, joints, world_)); });
+                  [&] { joints.push_back(addJoint(scene().joints[i], ids_, joints, world_)); });
     }
     takeDrives();
     if (ranks != nullptr && !deals_out) world_.share(*ranks, partition);
 }
 
 void SceneRun::takeDrives() {
-    for (std::size_t i = 0; i < scene_.drives.size(); ++i) {
+    for (std::size_t i = 0; i < scene().drives.size(); ++i) {
         inContext(fmt::format("drive {}", i), [&] {
-            requireDrive(scene_.drives[i], scene_);
-            curves_.push_back(std::make_shared<const MotionCurve>(scene_.drives[i].law));
+            requireDrive(scene().drives[i], scene());
+            curves_.push_back(std::make_shared<const MotionCurve>(scene().drives[i].law));
         });
     }
 }
@@ -294,14 +277,15 @@ void SceneRun::step() {
     // With a tolerance of a billionth of a step: an event at 0.1 s belongs to step 24 of 240, whatever 24/240 is
     // rounded to.
     const double now = world_.time() + 1e-9 * world_.settings().timeStep();
-    while (next_event_ < scene_.events.size() && scene_.events[next_event_].time <= now) {
-        const SceneEvent& event = scene_.events[next_event_++];
+    while (next_event_ < events_.size() && events_[next_event_].time <= now) {
+        const SceneEvent& event = events_[next_event_++];
         world_.gather();
         inContext(fmt::format("event at {} s", event.time), [&] { apply(event.action); });
     }
     if (!curves_.empty()) world_.gather();
     for (std::size_t i = 0; i < curves_.size(); ++i) {
-        inContext(fmt::format("drive {}", i), [&] { applyDrive(scene_.drives[i], *curves_[i], scene_, ids_, world_); });
+        inContext(fmt::format("drive {}", i),
+                  [&] { applyDrive(scene().drives[i], *curves_[i], scene(), ids_, world_); });
     }
     world_.step();
 }

@@ -1,27 +1,30 @@
 /// The part of SceneRun that saves and restores.
-#include <optional>
+#include <utility>
 
 #include "cairn/scene.h"
+#include "scene/scene_survey.h"
 #include "world/snapshot.h"
 
 namespace cairn {
 
-SceneRun::SceneRun(Scene scene, World world, std::vector<BodyId> ids, std::size_t next_event)
-    : scene_(std::move(scene)), world_(std::move(world)), ids_(std::move(ids)), next_event_(next_event) {
+SceneRun::SceneRun(SceneSource source, World world, std::vector<BodyId> ids, std::size_t next_event)
+    : source_(std::move(source)),
+      world_(std::move(world)),
+      events_(byTime(scene().events)),
+      ids_(std::move(ids)),
+      next_event_(next_event) {
     takeDrives();
 }
 
 namespace {
 
-/// What a run is besides its world.
-struct Head {
-    Scene scene;
+/// What a run is besides its scene and its world.
+struct Progress {
     std::vector<BodyId> ids;
     std::size_t next_event = 0;
 };
 
-void saveHead(const Scene& scene, const std::vector<BodyId>& ids, std::size_t next_event, ByteWriter& out) {
-    out.putText(formatScene(scene));
+void saveProgress(const std::vector<BodyId>& ids, std::size_t next_event, ByteWriter& out) {
     out.put(std::uint64_t{next_event});
     out.put(std::uint64_t{ids.size()});
     for (const BodyId id : ids) {
@@ -30,20 +33,31 @@ void saveHead(const Scene& scene, const std::vector<BodyId>& ids, std::size_t ne
     }
 }
 
-Head loadHead(ByteReader& in, std::string_view source) {
-    Head head;
-    head.scene = parseScene(in.getText(), source);
-    const auto next_event = in.get<std::uint64_t>();
+Progress loadProgress(ByteReader& in, const SceneSource& source) {
+    Progress progress;
+    progress.next_event = in.get<std::uint64_t>();
     const auto count = in.get<std::uint64_t>();
-    if (count != head.scene.bodies.size()) in.refuse("another number of bodies than the scene has");
-    if (next_event > head.scene.events.size()) in.refuse("more events than the scene has");
-    head.next_event = next_event;
-    head.ids.resize(count);
-    for (BodyId& id : head.ids) {
+    if (count != source.survey().bodies) in.refuse("another number of bodies than the scene has");
+    if (progress.next_event > source.scene().events.size()) in.refuse("more events than the scene has");
+    progress.ids.resize(count);
+    for (BodyId& id : progress.ids) {
         id.index = in.get<std::uint32_t>();
         id.generation = in.get<std::uint32_t>();
     }
-    return head;
+    return progress;
+}
+
+struct CommonOfRun {
+    Progress progress;
+    SavedPart world;
+};
+
+CommonOfRun loadCommon(const SavedPart& common, const SceneSource& source) {
+    ByteReader in(common.bytes, FrameKind::run_common, common.source);
+    CommonOfRun loaded{loadProgress(in, source), {{}, common.source}};
+    in.getArray(loaded.world.bytes);
+    in.finish();
+    return loaded;
 }
 
 }  // namespace
@@ -51,7 +65,8 @@ Head loadHead(ByteReader& in, std::string_view source) {
 std::vector<std::byte> SceneRun::save() const {
     std::vector<std::byte> snapshot;
     ByteWriter out(snapshot, FrameKind::scene_run);
-    saveHead(scene_, ids_, next_event_, out);
+    out.putText(formatScene(source_));
+    saveProgress(ids_, next_event_, out);
     out.putArray(std::span<const std::byte>(world_.save()));
     out.finish();
     return snapshot;
@@ -59,35 +74,35 @@ std::vector<std::byte> SceneRun::save() const {
 
 SceneRun SceneRun::restore(std::span<const std::byte> snapshot, std::string_view source) {
     ByteReader in(snapshot, FrameKind::scene_run, std::string(source));
-    Head head = loadHead(in, source);
+    SceneSource scene = parseScene(in.getText(), source);
+    Progress progress = loadProgress(in, scene);
     std::vector<std::byte> world;
     in.getArray(world);
     in.finish();
-    return {std::move(head.scene), World::restore(world), std::move(head.ids), head.next_event};
+    return {std::move(scene), World::restore(world), std::move(progress.ids), progress.next_event};
 }
 
-std::vector<std::byte> SceneRun::savePart() const {
-    const std::vector<std::byte> world = world_.savePart();
-    std::vector<std::byte> part;
-    ByteWriter out(part, FrameKind::run_part);
-    if (world_.ranks()->rank() == 0) saveHead(scene_, ids_, next_event_, out);
+std::vector<std::byte> SceneRun::saveCommon() const {
+    const std::vector<std::byte> world = world_.saveCommon();
+    std::vector<std::byte> common;
+    ByteWriter out(common, FrameKind::run_common);
+    saveProgress(ids_, next_event_, out);
     out.putArray(std::span<const std::byte>(world));
     out.finish();
-    return part;
+    return common;
 }
 
-SceneRun SceneRun::restoreParts(std::span<const SavedPart> parts) {
-    std::optional<Head> head;
-    std::vector<SavedPart> worlds;
-    for (const SavedPart& part : parts) {
-        ByteReader in(part.bytes, FrameKind::run_part, part.source);
-        if (!head) head = loadHead(in, part.source);
-        SavedPart& world = worlds.emplace_back(SavedPart{{}, part.source});
-        in.getArray(world.bytes);
-        in.finish();
-    }
-    if (!head) throw InputError("a run needs the parts of all ranks; there are none");
-    return {std::move(head->scene), World::restoreParts(worlds), std::move(head->ids), head->next_event};
+SceneRun SceneRun::restoreParts(SceneSource source, const SavedPart& common, const ReadPart& read) {
+    CommonOfRun loaded = loadCommon(common, source);
+    return {std::move(source), World::restoreParts(loaded.world, read), std::move(loaded.progress.ids),
+            loaded.progress.next_event};
+}
+
+SceneRun SceneRun::restoreParts(SceneSource source, const SavedPart& common, const ReadPart& read, Ranks& ranks,
+                                const Partition& partition) {
+    CommonOfRun loaded = loadCommon(common, source);
+    return {std::move(source), World::restoreParts(loaded.world, read, ranks, partition),
+            std::move(loaded.progress.ids), loaded.progress.next_event};
 }
 
 }  // namespace cairn

@@ -239,9 +239,12 @@ std::string eventsText(const Scene& scene) {
     return "[" + out + "]";
 }
 
-}  // namespace
+/// Pieces of a text that are handed over are about so long [bytes].
+constexpr std::size_t piece_size = std::size_t{1} << 16U;
 
-std::string formatScene(const Scene& scene) {
+/// @param scene all but the bodies @param append takes the text, piece by piece
+void writeParts(const Scene& scene, const SceneSource::Tell& bodies,
+                const std::function<void(std::string_view)>& append) {
     std::string out = fmt::format("{{\"name\":{},\"duration\":{},\"gravity\":{},\n", text(scene.name),
                                   number(scene.duration), gravityText(scene));
     if (!scene.events.empty()) out += fmt::format("\"events\":{},\n", eventsText(scene));
@@ -250,15 +253,45 @@ std::string formatScene(const Scene& scene) {
     if (scene.frame_motion) {
         out += fmt::format("\"frame_motion\":{},\n", motionText(*scene.frame_motion, Vec3::Zero()));
     }
-    const WrittenShapes shapes(scene);
+    const WrittenShapes shapes(bodies);
     if (const std::string shared = shapes.shared(); !shared.empty()) out += fmt::format("\"shapes\":{},\n", shared);
-    out += "\"bodies\":";
-    out += lines(scene.bodies, [&shapes](const SceneBody& body) { return bodyText(body, shapes); });
+    out += "\"bodies\":[";
+    bool any = false;
+    bodies([&](const SceneBody& body) {
+        out += any ? ",\n" : "\n";
+        out += bodyText(body, shapes);
+        any = true;
+        if (out.size() < piece_size) return;
+        append(out);
+        out.clear();
+    });
+    out += any ? "\n]" : "]";
     if (!scene.springs.empty()) out += fmt::format(",\n\"springs\":{}", lines(scene.springs, springText));
     if (!scene.joints.empty()) out += fmt::format(",\n\"joints\":{}", lines(scene.joints, jointText));
     if (!scene.drives.empty()) out += fmt::format(",\n\"drives\":{}", lines(scene.drives, driveText));
     if (scene.preset || !scene.settings.empty()) out += fmt::format(",\n\"settings\":{}", settingsText(scene));
-    return out + "}\n";
+    append(out + "}\n");
+}
+
+}  // namespace
+
+void writeText(const SceneSource& source, const std::function<void(std::string_view)>& append) {
+    writeParts(
+        source.scene(), [&source](const SceneSource::Take& take) { source.forEachBody(take); }, append);
+}
+
+std::string formatScene(const Scene& scene) {
+    std::string text;
+    writeParts(
+        scene, [&scene](const SceneSource::Take& take) { std::ranges::for_each(scene.bodies, take); },
+        [&text](std::string_view piece) { text += piece; });
+    return text;
+}
+
+std::string formatScene(const SceneSource& source) {
+    std::string text;
+    writeText(source, [&text](std::string_view piece) { text += piece; });
+    return text;
 }
 
 void writeScene(const Scene& scene, const std::filesystem::path& file) {

@@ -1,8 +1,10 @@
 /// @file Parts of the text of a scene.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cairn/scene.h"
@@ -41,7 +43,7 @@ std::string arrayText(const Range& range, const ToText& toText) {
 /// The shapes of a scene, of which those with many numbers are written once if several bodies have them.
 class WrittenShapes {
   public:
-    explicit WrittenShapes(const Scene& scene);
+    explicit WrittenShapes(const SceneSource::Tell& bodies);
     /// The shape as the value of a body's key.
     std::string textOf(const Shape& shape) const;
     /// The shapes that bodies name, as the value of the scene's key; empty if there are none.
@@ -53,6 +55,9 @@ class WrittenShapes {
     std::map<std::string, std::string> names_;    ///< of shared shapes, by text
     std::vector<std::string> order_;              ///< texts of shared shapes as they are named
 };
+
+/// The text of a scene in pieces, so that it is nowhere as a whole. @param append takes them
+void writeText(const SceneSource& source, const std::function<void(std::string_view)>& append);
 
 std::string driveText(const SceneDrive& drive);
 std::string gravityText(const Scene& scene);

@@ -87,16 +87,16 @@ bool isLong(const Shape& shape) {
 
 }  // namespace
 
-WrittenShapes::WrittenShapes(const Scene& scene) {
-    for (const SceneBody& body : scene.bodies) {
-        if (!isLong(body.shape)) continue;
+WrittenShapes::WrittenShapes(const SceneSource::Tell& bodies) {
+    bodies([this](const SceneBody& body) {
+        if (!isLong(body.shape)) return;
         const void* data = dataOf(body.shape);
         if (data != nullptr && !by_data_.contains(data)) by_data_.emplace(data, objectText(body.shape));
         const std::string text = data != nullptr ? by_data_.at(data) : objectText(body.shape);
-        if (++counts_[text] != 2) continue;
+        if (++counts_[text] != 2) return;
         order_.push_back(text);
         names_.emplace(text, fmt::format("\"shape {}\"", order_.size()));
-    }
+    });
 }
 
 std::string WrittenShapes::textOf(const Shape& shape) const {

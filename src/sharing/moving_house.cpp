@@ -85,6 +85,7 @@ void SharedBodies::gather(const DealtOut& world) {
     bodies.endPart();
     bodies.adoptSlots(bodies.nextNumber());
     whole_ = true;
+    is_taken_over_ = false;
 }
 
 /// Takes the bodies that belong elsewhere out of this world. @param out gets them @return whether there are any
@@ -180,9 +181,11 @@ void SharedBodies::moveHouse(const DealtOut& world) {
     Ranks::Messages out(static_cast<std::size_t>(ranks_.size()));
     const bool left = moveAway(world, out);
     const Ranks::Messages in = ranks_.exchange(std::move(out));
+    if (!left && std::ranges::all_of(in, &std::vector<std::byte>::empty)) return;
+    // While arrays of all bodies are copied, what they take is most, and these are found anew next time anyway.
+    groups_ = NearGroups();
     makeRoom(world, in);
     takeIn(world, in);
-    if (!left && came_.empty()) return;
     world.pairs.change({left_, came_, contacts_}, world.contacts);
     dropVacant(world, world.bodies.slots() / vacant_part);
     world.bodies.adoptSlots(world.bodies.nextNumber());

@@ -22,6 +22,9 @@ constexpr double time_ahead = 1.0 / 60;
 /// Time steps after which bodies that went into the region of another rank and met nobody go there.
 constexpr std::int64_t home_every = 30;
 
+/// Where so many bodies are tells where all are, when space is cut.
+constexpr std::size_t enough_places = std::size_t{1} << 17U;
+
 /// What a rank asks of the others at the beginning of a step …
 enum Wish : std::uint8_t { nothing = 0, groups_anew = 1, tell_frozen = 2 };
 
@@ -66,8 +69,22 @@ void SharedBodies::dealOut(BodyStorage& bodies, BodyIndex i, const Vec3& place) 
 
 /// From now on the bodies are those of any divided world.
 void SharedBodies::endDealing(const DealtOut& world) {
-    const std::size_t slots = world.bodies.slots();
     is_dealing_ = false;
+    beginAnew(world.bodies.slots());
+}
+
+void SharedBodies::takeOver(const BodyStorage& bodies, std::span<const std::vector<BodyIndex>> moved) {
+    whole_ = false;
+    is_taken_over_ = true;
+    kind_.assign(bodies.kind.begin(), bodies.kind.end());
+    for (const std::vector<BodyIndex>& homes : moved) {
+        for (const BodyIndex home : homes) kind_[bodies.slotOf(home)] = BodyKind::dynamic;
+    }
+    beginAnew(bodies.slots());
+}
+
+/// Knows nothing of the bodies but which there are.
+void SharedBodies::beginAnew(std::size_t slots) {
     // What joints and the like name was fixed, and is on all ranks.
     stays_.assign(slots, 0);
     solid_.assign(slots, no_slot);
@@ -88,6 +105,7 @@ void SharedBodies::settle(const DealtOut& world) {
         fastest_ = world.fastest;
         return;
     }
+    if (is_taken_over_) cut(world.bodies);
     if (!isDue(world)) return;
     coverAll(world);
     const NearGroupsInput input = groupsInput(world);
@@ -96,6 +114,7 @@ void SharedBodies::settle(const DealtOut& world) {
     groups_.findAcross(input, world.executor, ranks_);
     findOwners(world);
     moveHouse(world);
+    is_taken_over_ = false;
 }
 
 /// Every rank keeps its part of what all have.
@@ -156,7 +175,7 @@ void SharedBodies::listSolids(const BodyStorage& bodies) {
 }
 
 bool SharedBodies::goHome(std::int64_t step) const {
-    return partition_.restless || step % home_every == 0 || isRebalanced(step);
+    return partition_.restless || step % home_every == 0 || isRebalanced(step) || is_taken_over_;
 }
 
 /// Whether a body of this rank may be elsewhere, or look farther, than when its cover was last compared.
@@ -186,7 +205,7 @@ bool SharedBodies::isDue(const DealtOut& world) {
     const bool slower = (all & groups_anew) != 0 && fastest_ < covered_speed_ / 2;
     if (fastest_ > covered_speed_ || slower) coverSpeed();
     if ((all & tell_frozen) != 0) tellFrozen(world);
-    if (isRebalanced(world.step)) cut(world);
+    if (isRebalanced(world.step)) cut(world.bodies);
     return all != nothing;
 }
 
@@ -196,11 +215,13 @@ void SharedBodies::coverSpeed() {
     covers_anew_ = true;
 }
 
-/// Cuts all space anew, by where bodies are now.
-void SharedBodies::cut(const DealtOut& world) {
+/// Cuts all space anew, by where bodies are now; of many by where some of them are.
+void SharedBodies::cut(const BodyStorage& bodies) {
+    const std::size_t apart = 1 + bodies.wholeSlots() / enough_places;
+    std::size_t own = 0;
     std::vector<std::byte> message;
-    for (BodyIndex i = 0; i < world.bodies.slots(); ++i) {
-        if (isOwn(world.bodies, i)) pack(message, world.bodies.position[i]);
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        if (isOwn(bodies, i) && own++ % apart == 0) pack(message, bodies.position[i]);
     }
     std::vector<Vec3> places;
     for (const auto& told : tellAll(ranks_, message)) {

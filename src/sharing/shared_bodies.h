@@ -75,6 +75,14 @@ class SharedBodies {
         return endOf(joint) == Joint::world ? ranks_.rank() == 0 : hasJoint(bodies, joint);
     }
 
+    /// Whether a body is on all ranks, as what cannot move is, or a slot is a hole on all of them.
+    bool isOnAll(BodyIndex i) const { return kind_[i] != BodyKind::dynamic; }
+    /// Whether bodies that can move are of shapes that are sent, so that a rank need not know those it does not have.
+    bool sendsAllShapes() const { return solids_.empty(); }
+    /// Takes over a part of a world that was divided before. At the next settle() space is cut anew.
+    /// @param moved lists of homes of its bodies that can move, or could until a fault @pre their shapes are sent
+    void takeOver(const BodyStorage& bodies, std::span<const std::vector<BodyIndex>> moved);
+
     /// Divides a world that has no bodies yet: those that are added until the next settle() are dealt out.
     /// @param places where they will be [m, W], the same on all ranks
     void deal(BodyStorage& bodies, std::vector<Vec3> places);
@@ -100,7 +108,8 @@ class SharedBodies {
     void coverSpeed();
     Bounds reachOf(const DealtOut& world, BodyIndex i) const;
     void coverAll(const DealtOut& world);
-    void cut(const DealtOut& world);
+    void cut(const BodyStorage& bodies);
+    void beginAnew(std::size_t slots);
     void tellFrozen(const DealtOut& world);
     void leave(BodyStorage& bodies, BodyIndex i) const;
     void listSolids(const BodyStorage& bodies);
@@ -135,6 +144,7 @@ class SharedBodies {
     Partition partition_;
     bool whole_ = true;
     bool is_dealing_ = false;
+    bool is_taken_over_ = false;         ///< and no space is cut yet
     std::vector<BodyKind> kind_;         ///< [slots] of all bodies, wherever they are
     std::vector<std::uint8_t> stays_;    ///< [slots] 1 = is named, and so has a slot on all ranks
     std::vector<std::uint32_t> solid_;   ///< [slots] index of the shape in solids_; no_slot = it is sent with the body

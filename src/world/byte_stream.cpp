@@ -59,10 +59,12 @@ std::string_view nameOf(FrameKind kind) {
             return "a run";
         case FrameKind::world_part:
             return "a part of a world";
-        case FrameKind::run_part:
-            return "a part of a run, which the file of its checkpoint names";
+        case FrameKind::world_common:
+            return "what the parts of a world have in common";
         case FrameKind::checkpoint:
             return "a checkpoint of several parts";
+        case FrameKind::run_common:
+            return "what the parts of a run have in common";
     }
     return "something unknown";
 }

@@ -31,9 +31,10 @@ concept PlainBytes = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_sam
 enum class FrameKind : std::uint32_t {
     world = 1,
     scene_run = 2,
-    world_part = 3,  ///< of a world that is divided: what one rank has
-    run_part = 4,    ///< likewise of a run
-    checkpoint = 5   ///< of parts: which files they are
+    world_part = 3,    ///< of a world that is divided: what one rank has
+    world_common = 4,  ///< of a world that is divided: what all ranks have
+    checkpoint = 5,    ///< of parts: which files they are
+    run_common = 6     ///< as world_common, of a run
 };
 
 /// Writes into a buffer whose memory is used again.

@@ -195,10 +195,9 @@ void gatherShared(WorldState& world) {
     const DetectionRange range;
     const bool was_dealing = isDealing(world);
     world.shared->gather(dealtOut(world, tied, range));
-    if (was_dealing) {
-        // No step was made yet.
-        world.dealt_extents = {};
-    } else {
+    world.dealt_extents = {};
+    // While bodies are dealt out no step was made yet.
+    if (!was_dealing) {
         data.generation.assign(world.bodies.generation.begin(), world.bodies.generation.end());
         gatherReports(world);
         uniteReports(world);

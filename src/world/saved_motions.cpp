@@ -117,6 +117,7 @@ void loadMotions(ByteReader& in, WorldState& world) {
     for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
         DrivenBody driven;
         drivenFields(in, driven);
+        driven.body = world.bodies.slotOf(driven.body);
         const bool follows = world.driven.empty() || world.driven.back().body < driven.body;
         if (!follows || !isSound(driven, world.bodies)) in.refuse("a motion of an unknown body");
         driven.curve = loadCurve(in);

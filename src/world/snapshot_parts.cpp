@@ -2,6 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <functional>
+#include <utility>
+
 #include "messages/sums.h"
 #include "world/division.h"
 #include "world/saved_fields.h"
@@ -12,7 +16,7 @@ namespace cairn {
 
 namespace {
 
-/// What says that parts belong together, and in which order.
+/// Which part it is, of which moment.
 struct Place {
     std::uint32_t rank = 0;
     std::uint32_t ranks = 0;
@@ -80,36 +84,49 @@ std::vector<std::uint32_t> jointsHere(const WorldState& world) {
     return joints;
 }
 
-void saveBodiesHere(const WorldState& world, ByteWriter& out) {
-    const BodyStorage& bodies = world.bodies;
+/// @param is_meant which slots
+template <class Predicate>
+void saveBodies(const BodyStorage& bodies, ByteWriter& out, const Predicate& is_meant) {
     std::vector<BodyIndex> slots;
-    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (world.shared->isTold(bodies, i)) slots.push_back(i);
-    }
     std::vector<BodyIndex> homes;
-    for (const BodyIndex i : slots) homes.push_back(bodies.homeOf(i));
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        if (!is_meant(i)) continue;
+        slots.push_back(i);
+        homes.push_back(bodies.homeOf(i));
+    }
     out.putArray(std::span<const BodyIndex>(homes));
     pickedFields(out, bodies, slots);
 }
 
-/// Reads the bodies of all parts. @param slots of the world
-void loadBodies(std::span<ByteReader> parts, std::uint64_t slots, BodyStorage& bodies) {
-    std::vector<std::vector<BodyIndex>> slots_of(parts.size());
-    std::uint64_t told = 0;
-    for (std::size_t n = 0; n < parts.size(); ++n) {
-        parts[n].getArray(slots_of[n]);
-        told += slots_of[n].size();
-    }
-    // Compared before anything is reserved.
-    if (told != slots) parts.front().refuse("another number of bodies than all parts have");
-    std::vector<std::uint8_t> found(slots, 0);
-    forEachBodyField([&](const auto& row) { (bodies.*row.array).resize(slots); });
-    for (std::size_t n = 0; n < parts.size(); ++n) {
-        for (const BodyIndex i : slots_of[n]) {
-            if (i >= slots || found[i]++ != 0) parts[n].refuse("a body that another part has, or none");
-        }
-        pickedFields(parts[n], bodies, slots_of[n]);
-    }
+using Homes = std::vector<BodyIndex>;
+
+/// The homes of bodies, of which there is one each. @param slots of the whole world
+Homes loadHomes(ByteReader& in, std::uint64_t slots) {
+    Homes homes;
+    in.getArray(homes);
+    const bool sound = std::ranges::adjacent_find(homes, std::ranges::greater_equal()) == homes.end() &&
+                       (homes.empty() || homes.back() < slots);
+    if (!sound) in.refuse("bodies out of order, or more than there are");
+    return homes;
+}
+
+/// Makes slots for the bodies of all lists. @param slots of the whole world @param is_whole they are to be all
+void makeSlots(const ByteReader& in, std::span<const Homes> lists, std::uint64_t slots, bool is_whole,
+               BodyStorage& bodies) {
+    Homes all;
+    for (const Homes& homes : lists) all.insert(all.end(), homes.begin(), homes.end());
+    std::ranges::sort(all);
+    if (std::ranges::adjacent_find(all) != all.end()) in.refuse("a body that two parts have");
+    if (is_whole && all.size() != slots) in.refuse("another number of bodies than all parts have");
+    bodies.becomePart(std::move(all), slots);
+    if (is_whole) bodies.endPart();
+}
+
+void loadBodies(ByteReader& in, const Homes& homes, BodyStorage& bodies) {
+    std::vector<BodyIndex> slots;
+    slots.reserve(homes.size());
+    for (const BodyIndex home : homes) slots.push_back(bodies.slotOf(home));
+    pickedFields(in, bodies, slots);
 }
 
 void saveStep(const WorldState& world, ByteWriter& out) {
@@ -132,7 +149,14 @@ void loadStep(ByteReader& in, WorldState& world) {
         const bool broke = !world.joints[j].present && world.joints[j].generation == generation + 1;
         if (world.joints[j].generation != generation && !broke) in.refuse("a joint of another time");
     }
-    loadContacts(in, world.data.generation.size(), world.data.contacts);
+    std::vector<Contact> contacts;
+    loadContacts(in, world.bodies.wholeSlots(), contacts);
+    for (Contact& contact : contacts) {
+        contact.a = world.bodies.slotOf(contact.a);
+        contact.b = world.bodies.slotOf(contact.b);
+        if (contact.a == no_slot || contact.b == no_slot) in.refuse("a contact of a body that the part has not");
+        world.data.contacts.push_back(contact);
+    }
     std::vector<Sensed> sensed;
     loadSensed(in, sensed);
     world.data.sensed.insert(world.data.sensed.end(), sensed.begin(), sensed.end());
@@ -142,51 +166,86 @@ void loadStep(ByteReader& in, WorldState& world) {
     loadFaults(in, world.faults);
 }
 
+/// Refuses parts that are not of the moment, or not those that are asked for.
+void requirePlaces(const DividedWorld& divided, std::span<ByteReader> parts, bool is_whole) {
+    std::uint32_t next = 0;
+    for (ByteReader& part : parts) {
+        Place place;
+        placeFields(part, place);
+        const bool follows = is_whole ? place.rank == next : place.rank >= next;
+        if (!follows || place.ranks != divided.ranks || place.steps != divided.steps) {
+            part.refuse(
+                fmt::format("the part of rank {} of {} after {} time steps, where that of {} of {} after {} time steps "
+                            "is needed",
+                            place.rank, place.ranks, place.steps, next, divided.ranks, divided.steps));
+        }
+        next = place.rank + 1;
+    }
+    if (is_whole && next != divided.ranks) parts.back().refuse("the last of too few parts");
+}
+
 }  // namespace
 
 void savePart(const WorldState& world, ByteWriter& out) {
-    const Ranks& ranks = world.shared->ranks();
-    const Place place{static_cast<std::uint32_t>(ranks.rank()), static_cast<std::uint32_t>(ranks.size()), world.steps};
+    const SharedBodies& shared = *world.shared;
+    const Place place{static_cast<std::uint32_t>(shared.ranks().rank()),
+                      static_cast<std::uint32_t>(shared.ranks().size()), world.steps};
     placeFields(out, place);
-    if (place.rank == 0) {
-        saveHead(world, out);
-        out.put(std::uint64_t{world.bodies.wholeSlots()});
-        out.put(world.bodies.nextNumber());
-    }
-    saveBodiesHere(world, out);
-    if (place.rank == 0) {
-        saveTies(world, out);
-        saveEvents(world.events, out);
-    }
+    saveBodies(world.bodies, out,
+               [&](BodyIndex i) { return !shared.isOnAll(i) && world.bodies.kind[i] != BodyKind::hole; });
     saveStep(world, out);
 }
 
-std::unique_ptr<WorldState> loadParts(std::span<ByteReader> parts) {
-    Place first;
-    for (std::size_t n = 0; n < parts.size(); ++n) {
-        Place place;
-        placeFields(parts[n], place);
-        if (n == 0) first = place;
-        if (place.rank != n || place.ranks != parts.size() || place.steps != first.steps) {
-            parts[n].refuse(
-                fmt::format("the part of rank {} of {} after {} time steps, where that of {} of {} after {} "
-                            "is needed",
-                            place.rank, place.ranks, place.steps, n, parts.size(), first.steps));
-        }
-    }
-    ByteReader& head = parts.front();
-    std::unique_ptr<WorldState> world = loadHead(head);
-    const auto slots = head.get<std::uint64_t>();
-    const auto next_number = head.get<std::uint64_t>();
-    loadBodies(parts, slots, world->bodies);
-    completeBodies(head, world->materials.all().size(), next_number, world->bodies);
-    loadTies(head, *world);
+void saveCommon(const WorldState& world, ByteWriter& out) {
+    const SharedBodies& shared = *world.shared;
+    const bool is_tied = !world.springs.empty() || !world.joints.empty() || !world.bodies.filter.exceptions().empty();
+    out.put(static_cast<std::uint32_t>(shared.ranks().size()));
+    out.put(world.steps);
+    out.put(static_cast<std::uint8_t>(!is_tied && shared.sendsAllShapes()));
+    saveHead(world, out);
+    out.put(std::uint64_t{world.bodies.wholeSlots()});
+    out.put(world.bodies.nextNumber());
+    out.putArray(std::span<const double>(world.dealt_extents));
+    saveBodies(world.bodies, out, [&](BodyIndex i) { return shared.isOnAll(i); });
+    saveTies(world, out);
+    saveEvents(world.events, out);
+}
+
+DividedWorld loadDivided(ByteReader& common) {
+    DividedWorld divided;
+    divided.ranks = common.get<std::uint32_t>();
+    divided.steps = common.get<std::int64_t>();
+    divided.can_stay_divided = common.get<std::uint8_t>() != 0;
+    return divided;
+}
+
+std::unique_ptr<WorldState> loadParts(ByteReader& common, const DividedWorld& divided, std::span<ByteReader> parts,
+                                      std::unique_ptr<SharedBodies> shared) {
+    const bool is_whole = shared == nullptr;
+    requirePlaces(divided, parts, is_whole);
+    std::unique_ptr<WorldState> world = loadHead(common);
+    const auto slots = common.get<std::uint64_t>();
+    const auto next_number = common.get<std::uint64_t>();
+    common.getArray(world->dealt_extents);
+    if (is_whole) world->dealt_extents = {};
+    std::vector<Homes> homes;
+    for (ByteReader& part : parts) homes.push_back(loadHomes(part, slots));
+    homes.push_back(loadHomes(common, slots));
+    makeSlots(common, homes, slots, is_whole, world->bodies);
+    for (std::size_t n = 0; n < parts.size(); ++n) loadBodies(parts[n], homes[n], world->bodies);
+    loadBodies(common, homes.back(), world->bodies);
+    completeBodies(common, world->materials.all().size(), next_number, world->bodies);
+    loadTies(common, *world);
     // Parts are of the end of a step.
     world->data.generation.assign(world->bodies.generation.begin(), world->bodies.generation.end());
-    loadEvents(head, world->events);
-    checkWorld(head, *world);
+    loadEvents(common, world->events);
+    checkWorld(common, *world);
     for (ByteReader& part : parts) loadStep(part, *world);
     unite(*world);
+    if (is_whole) return world;
+    homes.pop_back();
+    shared->takeOver(world->bodies, homes);
+    world->shared = std::move(shared);
     return world;
 }
 

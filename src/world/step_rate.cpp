@@ -17,6 +17,16 @@ constexpr double usual_gravity = 10;   ///< [m/s²]
 constexpr double fewest_steps = 1e-3;  ///< [1/s], as of the setting; below likewise
 constexpr double most_steps = 1e6;
 
+/// What a body asks for: the larger, the less. @param gravity magnitude [m/s²]; 0 counts as 10
+int exponentOf(double extent, double gravity) {
+    double ratio = extent * usual_gravity / (usual_extent * (gravity > 0 ? gravity : usual_gravity));
+    // Half of the logarithm, rounded, in steps that are exact: worlds that are scaled by powers of four step alike.
+    int exponent = 0;
+    for (; ratio >= 2 && std::isfinite(ratio); ratio /= 4) --exponent;
+    for (; ratio <= 0.5 && ratio > 0; ratio *= 4) ++exponent;
+    return exponent;
+}
+
 }  // namespace
 
 double middleExtent(const Shape& shape) {
@@ -32,13 +42,21 @@ double middleExtent(const Shape& shape) {
 int stepExponent(std::span<double> extents, double gravity) {
     if (extents.empty()) return 0;
     std::ranges::sort(extents);
-    const double extent = extents[(extents.size() - 1) / 2];
-    double ratio = extent * usual_gravity / (usual_extent * (gravity > 0 ? gravity : usual_gravity));
-    // Half of the logarithm, rounded, in steps that are exact: worlds that are scaled by powers of four step alike.
-    int exponent = 0;
-    for (; ratio >= 2 && std::isfinite(ratio); ratio /= 4) --exponent;
-    for (; ratio <= 0.5 && ratio > 0; ratio *= 4) ++exponent;
-    return exponent;
+    return exponentOf(extents[(extents.size() - 1) / 2], gravity);
+}
+
+void StepExponents::add(double extent) {
+    ++counts_[exponentOf(extent, gravity_)];
+    ++count_;
+}
+
+int StepExponents::median() const {
+    if (count_ == 0) return 0;
+    // From the smallest body on, which asks for the most.
+    std::size_t before = (count_ - 1) / 2;
+    auto entry = counts_.rbegin();
+    for (; before >= entry->second; ++entry) before -= entry->second;
+    return entry->first;
 }
 
 Settings withKnownSteps(const Settings& settings, int exponent) {

@@ -1,6 +1,8 @@
 /// @file How many time steps a second has, by the sizes of the bodies.
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <optional>
 #include <span>
 
@@ -16,6 +18,21 @@ double middleExtent(const Shape& shape);
 /// @param extents of the bodies that move [m]; none = 0 is returned. They are sorted
 /// @param gravity magnitude [m/s²]; 0 counts as 10
 int stepExponent(std::span<double> extents, double gravity);
+
+/// The same for bodies that come one after the other.
+class StepExponents {
+  public:
+    /// @param gravity as above
+    explicit StepExponents(double gravity) : gravity_(gravity) {}
+    /// @param extent of a body that moves [m]
+    void add(double extent);
+    int median() const;
+
+  private:
+    double gravity_;
+    std::map<int, std::size_t> counts_;  ///< of bodies, by what each asks for
+    std::size_t count_ = 0;
+};
 
 /// Settings with a number of time steps that is known; the speed thresholds stay the same multiples of what a body
 /// falls within one. Settings whose number does not follow the sizes stay as they are.

@@ -38,6 +38,18 @@ void WorldState::wakeAll() {
     for (BodyIndex i = 0; i < state.size(); ++i) state.wake(i, WakeReason::changed);
 }
 
+namespace {
+
+/// Whether ranks may have the one and the other: results do not depend on the threads.
+bool differInThreadsAlone(const Settings& a, const Settings& b) {
+    return a.steps_per_second == b.steps_per_second &&
+           std::ranges::all_of(settingFields(), [&](const SettingField& field) {
+               return field.name == "threads" || field.get(a) == field.get(b);
+           });
+}
+
+}  // namespace
+
 World::World(const Settings& settings) {
     validate(settings, Vec3::Zero());
     state_ = std::make_unique<WorldState>(settings);
@@ -107,7 +119,7 @@ Vec3 World::globalAcceleration() const {
 }
 
 void World::step() {
-    if (!isDivided() || isDealing(*state_)) settleSteps(*state_);
+    if (!isDivided() || !state_->dealt_extents.empty()) settleSteps(*state_);
     stepWorld(*state_);
 }
 
@@ -133,7 +145,7 @@ const Settings& World::settings() const {
 }
 
 void World::setSettings(const Settings& settings) {
-    requireWhole(*state_, "World::setSettings");
+    if (!differInThreadsAlone(settings, state_->settings)) requireWhole(*state_, "World::setSettings");
     validate(settings, lastingGravity(state_->gravity, state_->gravity_law) + state_->global_acceleration);
     state_->applySettings(state_->sized ? withKnownSteps(settings, state_->step_exponent) : settings);
 }

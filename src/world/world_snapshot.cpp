@@ -1,4 +1,6 @@
 /// The part of World that saves and restores.
+#include <utility>
+
 #include "cairn/world.h"
 #include "world/division.h"
 #include "world/rollback.h"
@@ -7,6 +9,28 @@
 #include "world/world_state.h"
 
 namespace cairn {
+
+namespace {
+
+/// Some of the ranks that a world was divided among.
+struct RankRange {
+    std::size_t begin, end;
+};
+
+/// @param common behind what loadDivided() read @param shared as that of loadParts()
+std::unique_ptr<WorldState> readParts(ByteReader& common, const DividedWorld& divided, RankRange range,
+                                      const ReadPart& read, std::unique_ptr<SharedBodies> shared) {
+    std::vector<SavedPart> parts;
+    for (std::size_t rank = range.begin; rank < range.end; ++rank) parts.push_back(read(rank));
+    std::vector<ByteReader> readers;
+    for (const SavedPart& part : parts) readers.emplace_back(part.bytes, FrameKind::world_part, part.source);
+    std::unique_ptr<WorldState> state = loadParts(common, divided, readers, std::move(shared));
+    for (const ByteReader& reader : readers) reader.finish();
+    common.finish();
+    return state;
+}
+
+}  // namespace
 
 World::World(std::unique_ptr<WorldState> state) : state_(std::move(state)) {}
 
@@ -32,13 +56,34 @@ std::vector<std::byte> World::savePart() const {
     return part;
 }
 
-World World::restoreParts(std::span<const SavedPart> parts) {
-    if (parts.empty()) throw InputError("a world needs the parts of all ranks; there are none");
-    std::vector<ByteReader> readers;
-    for (const SavedPart& part : parts) readers.emplace_back(part.bytes, FrameKind::world_part, part.source);
-    std::unique_ptr<WorldState> state = loadParts(readers);
-    for (const ByteReader& reader : readers) reader.finish();
-    return World(std::move(state));
+std::vector<std::byte> World::saveCommon() const {
+    if (!isDivided()) throw InputError("World::saveCommon is for a world that is divided; use World::save");
+    std::vector<std::byte> common;
+    ByteWriter out(common, FrameKind::world_common);
+    cairn::saveCommon(*state_, out);
+    out.finish();
+    return common;
+}
+
+World World::restoreParts(const SavedPart& common, const ReadPart& read) {
+    ByteReader in(common.bytes, FrameKind::world_common, common.source);
+    const DividedWorld divided = loadDivided(in);
+    return World(readParts(in, divided, {0, divided.ranks}, read, nullptr));
+}
+
+World World::restoreParts(const SavedPart& common, const ReadPart& read, Ranks& ranks, const Partition& partition) {
+    ByteReader in(common.bytes, FrameKind::world_common, common.source);
+    const DividedWorld divided = loadDivided(in);
+    if (!divided.can_stay_divided) {
+        World world = restoreParts(common, read);
+        world.share(ranks, partition);
+        return world;
+    }
+    const auto first = [&](int rank) {
+        return std::size_t{divided.ranks} * static_cast<std::size_t>(rank) / static_cast<std::size_t>(ranks.size());
+    };
+    return World(readParts(in, divided, {first(ranks.rank()), first(ranks.rank() + 1)}, read,
+                           std::make_unique<SharedBodies>(ranks, partition)));
 }
 
 World World::restore(std::span<const std::byte> snapshot) {

@@ -1,6 +1,7 @@
 /// Worlds that ranks share from the start, so that none of them ever has all bodies.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <span>
 #include <string>
 #include <vector>
@@ -132,6 +133,15 @@ TEST(DealtWorld, DealsOutTheBodiesOfScenes) {
         });
         for (const Partition& partition : {Partition{}, by_hash, restless}) expectSameSteps(scene, 90, partition);
     }
+    for (const char* name : {"heap:60", "pits:3:15", "bed:5:4:3"}) {
+        const SceneSource source = builtInSource(name);
+        runRanks(3, [&](Ranks& ranks) {
+            const SceneRun run(source, settingsFor(source), ranks, by_hash);
+            EXPECT_TRUE(run.scene().bodies.empty());
+            EXPECT_LT(run.world().bodyCount(), run.ids().size());
+        });
+        for (const Partition& partition : {Partition{}, restless}) expectSameSteps(source, 60, partition);
+    }
     // Others are divided by the first step.
     const Scene chain = builtInScene("cradle_swing:5:2");
     runRanks(2, [&](Ranks& ranks) {
@@ -139,6 +149,126 @@ TEST(DealtWorld, DealsOutTheBodiesOfScenes) {
         EXPECT_FALSE(run.world().isDivided());
         run.step();
         EXPECT_TRUE(run.world().isDivided());
+    });
+}
+
+/// What ranks saved of a run.
+struct Saved {
+    std::vector<SavedPart> parts;
+    SavedPart common;
+
+    ReadPart reader() const {
+        return [this](std::size_t rank) { return parts.at(rank); };
+    }
+};
+
+/// Steps a scene on ranks and saves it. @param change what is done to the whole world before
+template <class Change>
+Saved savedAfter(int steps, const SceneSource& source, int count, const Partition& partition, const Change& change) {
+    Saved saved{std::vector<SavedPart>(static_cast<std::size_t>(count)), {{}, "common"}};
+    runRanks(count, [&](Ranks& ranks) {
+        SceneRun run(source, settingsFor(source), ranks, partition);
+        run.world().gather();
+        change(run);
+        for (int i = 0; i < steps; ++i) run.step();
+        saved.parts[static_cast<std::size_t>(ranks.rank())] = {run.world().savePart(), "part"};
+        if (ranks.rank() == 0) saved.common.bytes = run.saveCommon();
+    });
+    return saved;
+}
+
+/// A scene with a body that fails, a sensor, a plate that moves and a hole.
+Scene eventful() {
+    Scene scene = row(12);
+    SceneBody plate = scene.bodies[3];
+    plate.shape = Box{{0.5, 0.5, 0.05}};
+    plate.fixed = true;
+    plate.motion = SineMotion{.amplitude = {0, 0, 0.05}, .frequency = 1};
+    plate.position.z() = 0;
+    scene.bodies.insert(scene.bodies.begin() + 4, plate);
+    scene.bodies[7].sensor = true;
+    scene.events.push_back({0.02, RemoveBody{5}});
+    scene.events.push_back({0.35, SetGravity{{1, 0, -5}}});
+    return scene;
+}
+
+TEST(DealtWorld, GoesOnFromSomeOfThePartsOnEachRank) {
+    const SceneSource source = eventful();
+    const auto change = [](SceneRun& run) { run.world().setEventLevel(EventLevel::all); };
+    SceneRun alone(source, settingsFor(source));
+    change(alone);
+    for (int i = 0; i < 100; ++i) alone.step();
+    for (const Partition& partition : {Partition{}, by_hash, restless}) {
+        const Saved saved = savedAfter(40, source, 4, partition, change);
+        for (const int count : {1, 2, 3, 4, 6}) {
+            std::atomic<std::size_t> read = 0;
+            runRanks(count, [&](Ranks& ranks) {
+                const auto part = [&](std::size_t rank) {
+                    ++read;
+                    return saved.parts.at(rank);
+                };
+                SceneRun run = SceneRun::restoreParts(source, saved.common, part, ranks, partition);
+                EXPECT_TRUE(run.world().isDivided());
+                run.world().setSettings(run.world().settings());
+                for (int i = 40; i < 100; ++i) run.step();
+                EXPECT_EQ(run.world().sums().state_hash, alone.world().stateHash());
+                run.world().gather();
+                EXPECT_TRUE(run.save() == alone.save()) << count;
+            });
+            EXPECT_EQ(read, 4U) << "each part is read by one rank";
+        }
+        EXPECT_EQ(SceneRun::restoreParts(source, saved.common, saved.reader()).world().stepCount(), 40);
+    }
+}
+
+TEST(DealtWorld, GoesOnFromPartsOfTheBeginningAndOfAFault) {
+    Scene scene = row(9);
+    const auto unchanged = [](const SceneRun&) {};
+    const auto push = [](SceneRun& run) { run.world().applyForce(run.ids()[4], {1e30, 0, 0}); };
+    const auto expectSame = [&](int steps, std::size_t faults, const auto& change) {
+        SceneRun alone(scene, settingsFor(scene));
+        change(alone);
+        for (int i = 0; i < steps + 20; ++i) alone.step();
+        EXPECT_EQ(alone.world().faults().size(), faults);
+        const Saved saved = savedAfter(steps, scene, 3, by_hash, change);
+        runRanks(2, [&](Ranks& ranks) {
+            SceneRun run = SceneRun::restoreParts(scene, saved.common, saved.reader(), ranks);
+            for (int i = 0; i < 20; ++i) run.step();
+            EXPECT_EQ(run.world().sums().state_hash, alone.world().stateHash());
+            run.world().gather();
+            EXPECT_TRUE(run.save() == alone.save());
+        });
+    };
+    expectSame(3, 0, unchanged);
+    // Only the rank that has the body knows yet that it was fixed.
+    expectSame(1, 1, push);
+    Saved saved;
+    saved.parts.resize(3);
+    runRanks(3, [&](Ranks& ranks) {
+        const SceneRun run(scene, settingsFor(scene), ranks, by_hash);
+        saved.parts[static_cast<std::size_t>(ranks.rank())] = {run.world().savePart(), "part"};
+        if (ranks.rank() == 0) saved.common = {run.saveCommon(), "common"};
+    });
+    SceneRun alone(scene, settingsFor(scene));
+    for (int i = 0; i < 20; ++i) alone.step();
+    runRanks(2, [&](Ranks& ranks) {
+        SceneRun run = SceneRun::restoreParts(scene, saved.common, saved.reader(), ranks);
+        for (int i = 0; i < 20; ++i) run.step();
+        run.world().gather();
+        EXPECT_TRUE(run.save() == alone.save());
+    });
+}
+
+TEST(DealtWorld, IsReadAsAWholeWhereThingsNameBodies) {
+    const Scene chain = builtInScene("cradle_swing:5:2");
+    SceneRun alone(chain, settingsFor(chain));
+    for (int i = 0; i < 60; ++i) alone.step();
+    const Saved saved = savedAfter(30, chain, 2, by_hash, [](const SceneRun&) {});
+    runRanks(3, [&](Ranks& ranks) {
+        SceneRun run = SceneRun::restoreParts(chain, saved.common, saved.reader(), ranks, by_hash);
+        EXPECT_FALSE(run.world().isDivided());
+        for (int i = 0; i < 30; ++i) run.step();
+        EXPECT_EQ(run.world().sums().state_hash, alone.world().stateHash());
     });
 }
 

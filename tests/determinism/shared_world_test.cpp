@@ -53,6 +53,28 @@ TEST(SharedWorld, KeepsWhatAGearCouplesTogether) {
     expectSameSteps(scene, 120, restless);
 }
 
+TEST(SharedWorld, TakesBodiesLargerThanARegionAndSuchAsCrossSeveralInAStep) {
+    Scene scene = row(17);
+    SceneBody beam = ballAt({4, 0.3, 2.5});
+    beam.shape = Box{{7, 0.3, 0.1}};
+    beam.linear_velocity = {-1, 0, -3};
+    scene.bodies.push_back(beam);
+    SceneBody ledge = ballAt({4, -1, 0.2});
+    ledge.shape = Box{{9, 0.4, 0.4}};
+    ledge.fixed = true;
+    scene.bodies.push_back(ledge);
+    SceneBody bullet = ballAt({-6, 0, 1.6});
+    bullet.linear_velocity = {500, 0, 0};
+    scene.bodies.push_back(bullet);
+    bullet.position = {13, 0.3, 2.4};
+    bullet.linear_velocity = {-450, 0, -20};
+    scene.bodies.push_back(bullet);
+    for (const PartitionKind kind : {PartitionKind::x, PartitionKind::boxes, PartitionKind::hash}) {
+        expectSameSteps(scene, 60, {.kind = kind}, 8);
+    }
+    expectSameSteps(scene, 60, {.kind = PartitionKind::x, .rebalance_every = 1}, 8);
+}
+
 TEST(SharedWorld, HasBodiesOnOneRankEach) {
     const Scene scene = row(12);
     std::atomic<int> here = 0;
@@ -316,26 +338,30 @@ TEST(SharedWorld, GoesOnFromThePartsOfAllRanksOnOthers) {
     go(alone, 50);
     for (const Partition& partition : {Partition{}, by_hash, restless}) {
         std::vector<SavedPart> parts(4);
+        SavedPart common{{}, "common"};
         runRanks(4, [&](Ranks& ranks) {
             SceneRun run(scene, settings);
             run.world().setEventLevel(EventLevel::all);
             run.world().share(ranks, partition);
             go(run, 30);
             run.world().gather();
-            EXPECT_THROW(run.savePart(), InputError);
+            EXPECT_THROW(run.world().savePart(), InputError);
+            EXPECT_THROW(run.saveCommon(), InputError);
             meddle(run);
             go(run, 50);
-            parts[static_cast<std::size_t>(ranks.rank())] = {run.savePart(), "part"};
+            parts[static_cast<std::size_t>(ranks.rank())] = {run.world().savePart(), "part"};
+            if (ranks.rank() == 0) common.bytes = run.saveCommon();
         });
-        SceneRun whole = SceneRun::restoreParts(parts);
-        EXPECT_TRUE(whole.save() == alone.save());
-        EXPECT_THROW(SceneRun::restoreParts(std::span(parts).first(3)), InputError);
+        const auto restored = [&] {
+            return SceneRun::restoreParts(scene, common, [&](std::size_t rank) { return parts.at(rank); });
+        };
+        EXPECT_TRUE(restored().save() == alone.save());
         std::swap(parts[1], parts[2]);
-        EXPECT_THROW(SceneRun::restoreParts(parts), InputError);
+        EXPECT_THROW(restored(), InputError);
         parts[1] = parts[2];
-        EXPECT_THROW(SceneRun::restoreParts(parts), InputError);
+        EXPECT_THROW(restored(), InputError);
         parts[1].bytes.pop_back();
-        EXPECT_THROW(SceneRun::restoreParts(parts), InputError);
+        EXPECT_THROW(restored(), InputError);
     }
 }
 

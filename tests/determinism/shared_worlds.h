@@ -16,15 +16,15 @@ namespace cairn {
 inline constexpr Partition by_hash{.kind = PartitionKind::hash};
 inline constexpr Partition restless{.kind = PartitionKind::hash, .restless = true};
 
-/// Lets a scene run so many steps, alone and on three ranks, and expects the same states.
-inline void expectSameSteps(const Scene& scene, int steps, const Partition& partition) {
+/// Lets a scene run so many steps, alone and on some ranks, and expects the same states.
+inline void expectSameSteps(const SceneSource& scene, int steps, const Partition& partition, int count = 3) {
     SceneRun alone(scene, settingsFor(scene));
     std::vector<std::uint64_t> hashes;
     for (int i = 0; i < steps; ++i) {
         alone.step();
         hashes.push_back(alone.world().stateHash());
     }
-    runRanks(3, [&](Ranks& ranks) {
+    runRanks(count, [&](Ranks& ranks) {
         SceneRun run(scene, settingsFor(scene), ranks, partition);
         for (int i = 0; i < steps; ++i) {
             run.step();

@@ -77,6 +77,19 @@ TEST(Regions, AreOfUseWithoutPlacesAndWithEqualOnes) {
     EXPECT_LT(owner, 4);
 }
 
+TEST(Regions, AreCutWhereNobodyIs) {
+    std::vector<Vec3> places;
+    for (int i = 0; i < 1000; ++i) places.emplace_back(0.01 * i + (i < 512 ? 0 : 1), 0, 0);
+    const Regions regions({}, 2, places);
+    EXPECT_EQ(regions.ownerOf({5.4, 0, 0}), 0);
+    EXPECT_EQ(regions.ownerOf({5.7, 0, 0}), 1);
+    for (int i = 0; i < 1000; ++i) places[static_cast<std::size_t>(i)].x() = 0.01 * i + (i < 700 ? 0 : 1);
+    EXPECT_EQ(Regions({}, 2, places).ownerOf({5.1, 0, 0}), 1) << "too far from the middle";
+    for (int i = 0; i < 1000; ++i) places[static_cast<std::size_t>(i)].x() = i / 10;
+    EXPECT_EQ(Regions({}, 2, places).ownerOf({49, 0, 0}), 0) << "of all gaps the one in the middle";
+    EXPECT_EQ(Regions({}, 2, places).ownerOf({50, 0, 0}), 1);
+}
+
 TEST(Regions, RefuseGridsOfOtherNumbers) {
     EXPECT_NO_THROW(requirePartition({.kind = PartitionKind::grid, .parts = {2, 3, 1}}, 6));
     EXPECT_THROW(requirePartition({.kind = PartitionKind::grid, .parts = {2, 3, 1}}, 5), InputError);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <vector>
 
 #include "cairn/world.h"
@@ -51,6 +52,20 @@ TEST(StepRate, TakesTheMedianOfTheMiddleExtents) {
     EXPECT_EQ(stepExponent(extents, 10), 0);
     extents = {0.12, 0.48, 0.48, 100};
     EXPECT_EQ(stepExponent(extents, 10), -1);
+}
+
+TEST(StepRate, CountsBodiesThatComeOneByOne) {
+    for (std::size_t count = 0; count < 9; ++count) {
+        for (std::size_t first = 0; first < 9; ++first) {
+            std::vector<double> extents;
+            StepExponents exponents(9.81);
+            for (std::size_t i = 0; i < count; ++i) {
+                extents.push_back(std::array{0.01, 5.0, 0.12, 0.12, 0.3, 1.0, 0.001, 0.5, 3.0}[(first + 4 * i) % 9]);
+                exponents.add(extents.back());
+            }
+            EXPECT_EQ(exponents.median(), stepExponent(extents, 9.81)) << count << " " << first;
+        }
+    }
 }
 
 TEST(StepRate, SpeedThresholdsStayTheSamePartsOfWhatABodyFallsInAStep) {
