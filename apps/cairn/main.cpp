@@ -1,10 +1,5 @@
 /// @file The command-line program; what a subcommand does stands in the file of its name. Some are programs of their
 /// own.
-#include <cstdlib>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include "cli/companions.h"
 #include "cli/output.h"
 #include "commands.h"
@@ -34,18 +29,9 @@ void handOver(int argc, char** argv) {
     }
 }
 
-/// Large arrays that are given back go to the system at once, so that a rank of many takes what it has and no more.
-void keepNoLargeBlocks() {
-#ifdef __GLIBC__
-    constexpr int largest_kept = 1 << 18;  // [bytes]
-    mallopt(M_MMAP_THRESHOLD, largest_kept);
-#endif
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    keepNoLargeBlocks();
     try {
         handOver(argc, argv);
     } catch (const std::exception& error) {

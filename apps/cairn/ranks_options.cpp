@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstdlib>
 #include <vector>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "cli/output.h"
 #include "commands.h"
@@ -111,6 +115,14 @@ int runShared(Ranks& ranks, const RanksWish& wish, const OutputOptions& outputs,
     return runToTheEnd(std::move(prepared->run), outputs, prepared->usual_checkpoint, &ranks);
 }
 
+/// Large arrays that are given back go to the system at once, so that a rank of many takes what it has and no more.
+void keepNoLargeBlocks() {
+#ifdef __GLIBC__
+    constexpr int largest_kept = 1 << 18;  // [bytes]
+    mallopt(M_MMAP_THRESHOLD, largest_kept);
+#endif
+}
+
 /// Runs as one of the programs that mpirun started. An error that the others do not know of ends them all.
 int runByMpi(const RanksWish& wish, const OutputOptions& outputs, const Prepare& prepare) {
     const std::unique_ptr<Ranks> ranks = mpiRanks();
@@ -167,6 +179,7 @@ void addRanksOptions(CLI::App& command, RanksOptions& options) {
 
 int runOnRanks(const RanksOptions& options, const OutputOptions& outputs, const Prepare& prepare) {
     const RanksWish wish = parse(options);
+    if (isStartedByMpi() || wish.count > 0) keepNoLargeBlocks();
     if (isStartedByMpi()) return runByMpi(wish, outputs, prepare);
     if (wish.count == 0) {
         for (const auto& [given, name] : {std::pair(!options.partition.empty(), "--partition"),

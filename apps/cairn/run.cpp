@@ -31,15 +31,17 @@ SceneSource withBodies(const RunOptions& options) {
                     options.scene, options.scene));
 }
 
-SceneSource sourceFrom(const RunOptions& options) {
-    SceneSource source = options.bodies.empty() ? openScene(options.scene) : withBodies(options);
+/// @param alone one rank has all bodies: then a file is read once, while what is told is read twice
+SceneSource sourceFrom(const RunOptions& options, bool alone) {
+    const auto open = [&] { return alone ? SceneSource(loadScene(options.scene)) : openScene(options.scene); };
+    SceneSource source = options.bodies.empty() ? open() : withBodies(options);
     if (options.duration) source.setDuration(requireDuration(*options.duration));
     return source;
 }
 
 int runScene(const RunOptions& options) {
     return runOnRanks(options.ranks, options.outputs, [&](Ranks* ranks, const Partition& partition) -> PreparedRun {
-        SceneSource source = sourceFrom(options);
+        SceneSource source = sourceFrom(options, ranks == nullptr);
         const Settings settings = settingsFor(source, overridesFrom(options.overrides, source.scene()));
         refuseSameFiles(options.outputs, isBuiltInScene(options.scene) ? "" : options.scene);
         refuseSameFiles(options.outputs, options.bodies);
