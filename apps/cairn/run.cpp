@@ -33,7 +33,8 @@ SceneSource withBodies(const RunOptions& options) {
 
 /// @param alone one rank has all bodies: then a file is read once, while what is told is read twice
 SceneSource sourceFrom(const RunOptions& options, bool alone) {
-    const auto open = [&] { return alone ? SceneSource(loadScene(options.scene)) : openScene(options.scene); };
+    const bool once = alone && !isBuiltInScene(options.scene);
+    const auto open = [&] { return once ? SceneSource(loadScene(options.scene)) : openScene(options.scene); };
     SceneSource source = options.bodies.empty() ? open() : withBodies(options);
     if (options.duration) source.setDuration(requireDuration(*options.duration));
     return source;
