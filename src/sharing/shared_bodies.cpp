@@ -192,7 +192,7 @@ bool SharedBodies::isDue(const DealtOut& world) {
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (kind_[i] == BodyKind::dynamic && bodies.kind[i] == BodyKind::fixed) wish |= tell_frozen;
         if ((wish & groups_anew) != 0 || !isOwn(bodies, i) || !mayHaveLeft(bodies, i)) continue;
-        if (covered_[i] != 0 && cover_[i].contains(reachOf(world, i))) continue;
+        if (covered_[i] != 0 && (isWellCovered(world, i) || cover_[i].contains(reachOf(world, i)))) continue;
         wish |= groups_anew;
     }
     std::uint8_t all = nothing;
@@ -239,6 +239,20 @@ Bounds SharedBodies::reachOf(const DealtOut& world, BodyIndex i) const {
     reach.lower = reach.lower.cwiseMin(struck.lower);
     reach.upper = reach.upper.cwiseMax(struck.upper);
     return reach;
+}
+
+/// Whether a ball that holds all that reachOf() can be is within the cover of a body. This is quickly told, and true of
+/// most.
+bool SharedBodies::isWellCovered(const DealtOut& world, BodyIndex i) const {
+    constexpr double rounding = 1.001;
+    const BodyStorage& bodies = world.bodies;
+    const Foresight& foresight = world.range.foresight;
+    const double r_min = bodies.r_min[i];
+    const double speed = bodies.v[i].norm() + foresight.fall.norm() + bodies.w[i].norm() * bodies.r_max[i];
+    const double way = foresight.time * std::max(speed, covered_speed_);
+    const double radius = rounding * (bodies.r_max[i] + world.range.marginOf(r_min, r_min) + way);
+    const Vec3 corner = Vec3::Constant(radius);
+    return cover_[i].contains({bodies.position[i] - corner, bodies.position[i] + corner});
 }
 
 /// Gives new covers to the bodies of this rank that move.

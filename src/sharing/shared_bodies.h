@@ -105,6 +105,7 @@ class SharedBodies {
     void divide(const DealtOut& world);
     void moveHouse(const DealtOut& world);
     bool isDue(const DealtOut& world);
+    bool isWellCovered(const DealtOut& world, BodyIndex i) const;
     void coverSpeed();
     Bounds reachOf(const DealtOut& world, BodyIndex i) const;
     void coverAll(const DealtOut& world);
