@@ -84,7 +84,7 @@ site:
 
 golden:
 	@tools/install_packages build check
-	@$(CONFIGURE) -DCAIRN_SOURCES_AT_ONCE=8
+	@$(CONFIGURE)
 	@$(BUILD) golden
 	@build/release/tests/golden/golden tests/golden/hashes.json $(if $(UPDATE),--update)
 

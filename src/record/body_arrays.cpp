@@ -1,4 +1,4 @@
-/// Bodies of scenes that stand in HDF5 files.
+/// @file Bodies of scenes that stand in HDF5 files.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -40,7 +40,7 @@ class Surveyor {
     }
 
     SceneSurvey take() {
-        survey_.step_exponent = exponents_.median();
+        survey_.step_exponent = exponents_.median().value_or(0);
         return std::move(survey_);
     }
 

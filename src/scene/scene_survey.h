@@ -11,7 +11,7 @@ namespace cairn {
 /// Found by telling all bodies once; takes little memory however many there are.
 struct SceneSurvey {
     std::size_t bodies = 0;
-    int step_exponent = 0;  ///< what their sizes ask for, as stepExponent()
+    int step_exponent = 0;  ///< what their sizes ask for, as StepExponents; 0 where nobody moves
     /// Whether ranks can get the bodies one by one: nothing that all must know names a body that moves.
     bool can_be_dealt_out = true;
     std::vector<Vec3> places;  ///< of bodies that move [m, W]; of many some, evenly chosen

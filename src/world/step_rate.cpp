@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "geometry/geometry.h"
 #include "world/motions.h"
@@ -39,19 +38,13 @@ double middleExtent(const Shape& shape) {
     return extents[1];
 }
 
-int stepExponent(std::span<double> extents, double gravity) {
-    if (extents.empty()) return 0;
-    std::ranges::sort(extents);
-    return exponentOf(extents[(extents.size() - 1) / 2], gravity);
-}
-
 void StepExponents::add(double extent) {
     ++counts_[exponentOf(extent, gravity_)];
     ++count_;
 }
 
-int StepExponents::median() const {
-    if (count_ == 0) return 0;
+std::optional<int> StepExponents::median() const {
+    if (count_ == 0) return std::nullopt;
     // From the smallest body on, which asks for the most.
     std::size_t before = (count_ - 1) / 2;
     auto entry = counts_.rbegin();
@@ -73,14 +66,14 @@ Settings withKnownSteps(const Settings& settings, int exponent) {
 
 std::optional<int> stepExponentOf(const WorldState& world) {
     const BodyStorage& bodies = world.bodies;
-    // Of those that were dealt out a rank has a part.
-    std::vector<double> extents = world.dealt_extents;
-    for (BodyIndex i = 0; i < bodies.slots() && world.dealt_extents.empty(); ++i) {
-        if (bodies.kind[i] == BodyKind::dynamic) extents.push_back(middleExtent(bodies.shape[i]));
-    }
-    if (extents.empty()) return std::nullopt;
     const Vec3 gravity = lastingGravity(world.gravity, world.gravity_law) + world.global_acceleration;
-    return stepExponent(extents, gravity.norm());
+    StepExponents exponents(gravity.norm());
+    // Of those that were dealt out a rank has a part.
+    for (const double extent : world.dealt_extents) exponents.add(extent);
+    for (BodyIndex i = 0; i < bodies.slots() && world.dealt_extents.empty(); ++i) {
+        if (bodies.kind[i] == BodyKind::dynamic) exponents.add(middleExtent(bodies.shape[i]));
+    }
+    return exponents.median();
 }
 
 void settleSteps(WorldState& world) {

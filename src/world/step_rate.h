@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <map>
 #include <optional>
-#include <span>
 
 #include "cairn/shape.h"
 #include "world/world_state.h"
@@ -14,19 +13,16 @@ namespace cairn {
 /// The middle one of the three extents that a shape has along the axes of its frame [m].
 double middleExtent(const Shape& shape);
 
-/// The power of two that the number of time steps for bodies of 0.12 m under 10 m/s² is multiplied by.
-/// @param extents of the bodies that move [m]; none = 0 is returned. They are sorted
-/// @param gravity magnitude [m/s²]; 0 counts as 10
-int stepExponent(std::span<double> extents, double gravity);
-
-/// The same for bodies that come one after the other.
+/// The power of two that the number of time steps for bodies of 0.12 m under 10 m/s² is multiplied by, by the median of
+/// the extents of bodies that come one after the other.
 class StepExponents {
   public:
-    /// @param gravity as above
+    /// @param gravity magnitude [m/s²]; 0 counts as 10
     explicit StepExponents(double gravity) : gravity_(gravity) {}
     /// @param extent of a body that moves [m]
     void add(double extent);
-    int median() const;
+    /// Of evenly many the smaller one in the middle counts. @return none before the first body
+    std::optional<int> median() const;
 
   private:
     double gravity_;
