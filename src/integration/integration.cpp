@@ -191,9 +191,13 @@ void saveVelocities(const BodyStorage& bodies, const Executor& executor, Velocit
 }
 
 void saveForced(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before) {
+    before.forced_v.resize(bodies.slots());
+    before.bounced.assign(bodies.slots(), 0);
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
-            if (bodies.kind[i] != BodyKind::hole) before.forced[i] = speedChange(bodies, before, i);
+            if (bodies.kind[i] == BodyKind::hole) continue;
+            before.forced[i] = speedChange(bodies, before, i);
+            before.forced_v[i] = bodies.v[i];
         }
     });
 }
@@ -256,7 +260,12 @@ void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, s
         for (std::size_t i = begin; i < end; ++i) {
             if (bodies.kind[i] != BodyKind::dynamic || bodies.asleep[i] != 0) continue;
             if (!jointed.empty() && jointed[i] != 0) continue;
-            if (!(speedChange(bodies, before, i) <= smooth_multiple * before.forced[i])) continue;
+            if (!(speedChange(bodies, before, i) <= smooth_multiple * before.forced[i])) {
+                if (before.bounced[i] != 0) {
+                    bodies.position[i] += (before.forced_v[i] - before.v[i]) * (time_step / 2);
+                }
+                continue;
+            }
             const Vec3 missing = (bodies.v[i] - before.v[i]) * (time_step / 2);
             // Added to the way first, where nothing else moved the body: in free fall it is the same in all steps, and
             // would be rounded in the same direction in all of them.

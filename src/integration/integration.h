@@ -36,7 +36,9 @@ struct VelocitiesBefore {
     std::vector<Vec3> v;         ///< [m/s, W]
     std::vector<Vec3> w;         ///< [rad/s, W]
     std::vector<double> forced;  ///< by the forces, at most, of any point of the body [m/s]
-    std::vector<Vec3> lift;      ///< with RestitutionSpeed::touching: out of what the body bounces off [m, W]
+    std::vector<Vec3> forced_v;  ///< with exact_flight: velocities after the forces, before the resolution [m/s, W]
+    std::vector<std::uint8_t> bounced;  ///< 1 = flew until an impact at the end of the step took nothing from it
+    std::vector<Vec3> lift;             ///< with RestitutionSpeed::touching: out of what the body bounces off [m, W]
 };
 
 /// Notes the positions before advancePositions(). @param before out
@@ -61,7 +63,8 @@ void liftBounced(BodyStorage& bodies, const VelocitiesBefore& before);
 /// Completes the step of all awake dynamic bodies that moved smoothly: advancePositions() moved them by the velocity at
 /// the beginning of the step, this adds what is missing to the mean of beginning and end. Under constant forces that is
 /// the exact parabola; bodies at rest, whose velocity does not change, stay where they are. Where an impact changed the
-/// velocity by more than forces could, the mean means nothing and the body is left alone.
+/// velocity by more than forces could, the mean means nothing: then a body that bounced completes the parabola until
+/// the impact, without which its energy would rise by that of the way that forces gave it, and others are left alone.
 /// @pre savePositions() and saveForced() in this step, and the resolution is done @param jointed [slots] 1 = left to
 /// JointFlight; empty = none is @param time_step [s]
 void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, std::span<const std::uint8_t> jointed,

@@ -43,6 +43,12 @@ bool bounces(const Contact& contact, const BodyState& bodies, const ResolutionSe
     return contact.restitution > 0 && closing >= settings.restitution_threshold && closing > contact.allowed_closing;
 }
 
+/// Whether a contact pushed bodies apart that now part faster than what only comes to rest.
+bool hasBounced(const Contact& contact, const BodyState& bodies, const ResolutionSettings& settings) {
+    return contact.restitution > 0 && contact.normal.dot(contact.impulse) > 0 &&
+           normalVelocity(contact, bodies) > settings.restitution_threshold;
+}
+
 /// Takes what contacts gave from the velocities of the bodies that are awake.
 void takeBack(const Contact& contact, const BodyState& bodies) {
     for (const auto& [i, sign] : {std::pair(contact.a, 1.0), std::pair(contact.b, -1.0)}) {
@@ -53,8 +59,10 @@ void takeBack(const Contact& contact, const BodyState& bodies) {
     }
 }
 
-/// Goes back to before the resolution of a group's contacts, which then begin with what it found. Where one of those
-/// that were added bounces, its impact follows the others: then the velocities stay, and all begin with nothing.
+/// Goes back to before the resolution of a group's contacts, which then begin with what it found. Where one of them
+/// has bounced, or one of those that were added bounces, the impacts follow each other: then the velocities stay, and
+/// all begin with nothing. (Bodies at the edge of a group keep what other contacts gave them, so that going back to
+/// before an impact would raise the energy.)
 void beginAgain(StepData& data, const BodyState& bodies, const FollowedGroup& group) {
     for (const std::uint32_t i : group.view.contacts) {
         Contact& contact = data.contacts[i];
@@ -97,8 +105,10 @@ void resolveFollowed(WorldState& world, BodyState& bodies) {
     data.resolved.clear();
     for (const BatchView& view : data.surroundings.groups()) {
         const bool later = std::ranges::any_of(view.contacts, [&](std::uint32_t i) {
-            return std::ranges::binary_search(data.added, i) &&
-                   bounces(data.contacts[i], bodies, world.settings.resolution);
+            const Contact& contact = data.contacts[i];
+            const bool added = std::ranges::binary_search(data.added, i);
+            return added ? bounces(contact, bodies, world.settings.resolution)
+                         : hasBounced(contact, bodies, world.settings.resolution);
         });
         data.followed.push_back({view, later});
         beginAgain(data, bodies, data.followed.back());
@@ -139,6 +149,22 @@ void resolveContacts(WorldState& world, BodyState& bodies, const PairsInput& pai
     world.data.resolution_counts = {};
     resolveChosen(world, bodies, world.data.views);
     if (pairs.range.foresight.time > 0 && followStruck(world, bodies, pairs)) batchContacts(world);
+}
+
+void findBounced(const WorldState& world, const BodyState& bodies, VelocitiesBefore& before) {
+    const ResolutionSettings& settings = world.settings.resolution;
+    const double slowest = settings.restitution_threshold * settings.restitution_threshold;
+    for (const Contact& contact : world.data.contacts) {
+        const double kept = contact.restitution * contact.restitution;
+        for (const BodyIndex i : {contact.a, contact.b}) {
+            if (bodies.isFixed(i)) continue;
+            // An impact with the speed s leaves e·s and loses (1 − e²)s². Most contacts lose enough however slow.
+            const double worth = kept * before.forced[i] * before.forced[i];
+            if ((1 - kept) * slowest >= worth) continue;
+            const double parting = normalVelocity(contact, bodies);
+            if (hasBounced(contact, bodies, settings) && (1 - kept) * parting * parting < worth) before.bounced[i] = 1;
+        }
+    }
 }
 
 void resolveLaunched(WorldState& world, BodyState& bodies, const PairsInput& pairs) {

@@ -13,6 +13,10 @@ void batchContacts(WorldState& world);
 /// @param bodies as for the resolution @param pairs as for the detection
 void resolveContacts(WorldState& world, BodyState& bodies, const PairsInput& pairs);
 
+/// Finds the bodies that bounced and lost less by that than the way is worth that forces gave them in the step before.
+/// @param before out
+void findBounced(const WorldState& world, const BodyState& bodies, VelocitiesBefore& before);
+
 /// Resolves the impacts that bodies would make with the velocities that users gave them, which no resolution granted:
 /// before they fly on with these for a step. @pre the contacts are those of the places and velocities of now
 void resolveLaunched(WorldState& world, BodyState& bodies, const PairsInput& pairs);

@@ -213,6 +213,7 @@ void resolveStage(WorldState& world) {
     if (weighed) checkEnergy(world, energy);
     measureIfAsked(world, Measured::resolution);
     if (world.settings.integration.exact_flight) {
+        findBounced(world, bodies, data.before);
         completeSmoothMotion(world.bodies, data.before, data.jointed, world.settings.timeStep(), world.executor);
     }
     if (world.settings.resolution.restitution_speed == RestitutionSpeed::touching) {

@@ -174,6 +174,55 @@ TEST(TouchingRestitution, LetsABallComeToRestAndStay) {
     }
 }
 
+/// Elastic balls without friction over each other, in a shaft if asked for.
+World elasticBalls(const Settings& settings, int balls, bool shaft) {
+    World world(settings);
+    world.setGravity(Vec3(0, 0, -g));
+    world.addMaterial({.name = "matter", .density = 1000});
+    world.setDefaultPairProperties({.restitution = 1, .static_friction = 0, .kinetic_friction = 0});
+    for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)}) {
+        if (normal.z() == 0 && !shaft) continue;
+        BodyDescription side;
+        side.shape = HalfSpace{.normal = normal, .offset = normal.z() == 0 ? -0.1 : 0};
+        side.fixed = true;
+        world.addBody(side);
+    }
+    for (int i = 0; i < balls; ++i) world.addBody(ball(0.05, Vec3(0.01 * (i % 2), 0.02 * (i % 3), 0.5 + 0.25 * i)));
+    return world;
+}
+
+double energyOf(const World& world) {
+    return world.kineticEnergy() + world.potentialEnergy();
+}
+
+TEST(ElasticBounce, CompletesTheFlightUntilTheImpact) {
+    for (const double rate : {60.0, 100.0, 1000.0}) {
+        for (const int balls : {1, 2}) {
+            World world = elasticBalls(accurate(ResolutionKind::accelerated_sweeps, rate), balls, false);
+            const double first = energyOf(world);
+            double most = 0;
+            while (world.time() < 5) {
+                world.step();
+                most = std::max(most, std::abs(energyOf(world) / first - 1));
+            }
+            EXPECT_LE(most, 1e-12) << rate << " steps/s, balls: " << balls;
+        }
+    }
+}
+
+TEST(ElasticBounce, KeepsTheEnergyWhereImpactsFollowEachOtherWithinAStep) {
+    for (const auto& [rate, allowed] : {std::pair(1000.0, 1e-5), std::pair(100.0, 1e-2)}) {
+        World world = elasticBalls(Settings::preset(Preset::accuracy, rate, g), 8, true);
+        const double first = energyOf(world);
+        double most = 0;
+        while (world.time() < 5) {
+            world.step();
+            most = std::max(most, std::abs(energyOf(world) / first - 1));
+        }
+        EXPECT_LE(most, allowed) << rate;
+    }
+}
+
 TEST(ContactOptions, RefuseWhatCannotBe) {
     Settings settings = Settings::preset(Preset::accuracy);
     settings.resolution.restitution_law = RestitutionLaw::energetic;

@@ -7,8 +7,8 @@ namespace cairn::validation {
 
 extern const Case parabola, tumbling_box, dzhanibekov, symmetric_top;
 extern const Case incline_threshold, incline_slide, incline_creep, static_over_kinetic;
-extern const Case slide_to_roll, rolling_down;
-extern const Case bouncing, two_body_impact, oblique_impact, cue_ball, cradle;
+extern const Case slide_to_roll, rolling_down, pulled_plate;
+extern const Case bouncing, elastic_balls, two_body_impact, oblique_impact, cue_ball, cradle;
 
 extern const Case towers, walls, mass_ratios, tipping, overhang;
 
