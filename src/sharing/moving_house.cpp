@@ -23,12 +23,11 @@ enum class Item : std::uint8_t { slots, body, contact, joint };
 /// Brings the bodies, and all that has an entry of each, into slots with other homes.
 void SharedBodies::takeHomes(const DealtOut& world, std::vector<BodyIndex> homes) {
     const SlotMove move = world.bodies.takeHomes(std::move(homes));
+    is_compared_ = false;
     // A new slot is for a body that another rank has.
     rearrange(kind_, move, BodyKind::dynamic);
     rearrange(stays_, move, 0);
     rearrange(solid_, move, no_slot);
-    rearrange(cover_, move, {});
-    rearrange(covered_, move, 0);
     rearrange(owner_, move, no_rank);
     rearrange(left_, move, 0);
     world.rearrange(move);
@@ -182,8 +181,10 @@ void SharedBodies::moveHouse(const DealtOut& world) {
     const bool left = moveAway(world, out);
     const Ranks::Messages in = ranks_.exchange(std::move(out));
     if (!left && std::ranges::all_of(in, &std::vector<std::byte>::empty)) return;
+    // Whoever stays near one that went does not know it as one of another rank.
+    is_compared_ = false;
     // While arrays of all bodies are copied, what they take is most, and these are found anew next time anyway.
-    groups_ = NearGroups();
+    forgetGroups();
     makeRoom(world, in);
     takeIn(world, in);
     world.pairs.change({left_, came_, contacts_}, world.contacts);
@@ -216,17 +217,12 @@ void SharedBodies::packResident(std::vector<std::byte>& message, const DealtOut&
     pack(message, Item::body);
     pack(message, world.bodies.homeOf(i));
     packWhole(message, world.bodies, i);
-    pack(message, cover_[i].lower);
-    pack(message, cover_[i].upper);
     if (world.begun != nullptr) pack(message, (*world.begun)[i]);
 }
 
 BodyIndex SharedBodies::unpackResident(Unpacker& in, const DealtOut& world) {
     const BodyIndex i = world.bodies.slotOf(in.get<BodyIndex>());
     unpackWhole(in, world.bodies, i);
-    cover_[i].lower = in.get<Vec3>();
-    cover_[i].upper = in.get<Vec3>();
-    covered_[i] = 1;
     owner_[i] = static_cast<std::uint32_t>(ranks_.rank());
     if (world.begun != nullptr) (*world.begun)[i] = in.get<Vec3>();
     return i;
