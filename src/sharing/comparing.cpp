@@ -24,6 +24,9 @@ constexpr double free_time_ahead = 0.25;
 /// Groups that are larger than what was searched are searched for farther away, so often; then everywhere.
 constexpr int most_zones = 3;
 
+/// Realms of two ranks that overlap do so by the mean radius of a body's cover, times this.
+constexpr double radii_beside = 4;
+
 /// Balls that hold all that is computed otherwise are larger by the rounding of both.
 constexpr double rounding = 1.001;
 
@@ -46,6 +49,8 @@ struct Extents {
     Bounds box = emptyBounds();  ///< around their covers [m, W]
     double r_max = 0;            ///< largest [m]
     double r_min = 0;            ///< largest [m]
+    double radii = 0;            ///< sum of those of balls around covers [m]
+    std::size_t count = 0;
 };
 
 }  // namespace
@@ -111,19 +116,23 @@ bool SharedBodies::hasLeft(const DealtOut& world) const {
 /// Agrees on realms, and tells other ranks of the bodies that these may reach. To be called by all of them.
 void SharedBodies::compare(const DealtOut& world) {
     std::vector<std::byte> message;
-    packBounds(message, reachOfAll(world));
-    std::vector<Bounds> reach;
+    const Reach own = reachOfAll(world);
+    packBounds(message, own.box);
+    pack(message, own.beside);
+    std::vector<Reach> reach;
     for (const auto& told : tellAll(ranks_, message)) {
         Unpacker in(told);
-        reach.push_back(unpackBounds(in));
+        const Bounds box = unpackBounds(in);
+        reach.push_back({box, in.get<double>()});
     }
     realms_ = Realms(reach, static_cast<std::size_t>(ranks_.rank()), free_time_ahead * covered_speed_);
     tellNear(world);
     is_compared_ = true;
 }
 
-/// A box around the covers of all bodies of this rank.
-Bounds SharedBodies::reachOfAll(const DealtOut& world) {
+/// Around the covers of all bodies of this rank. Realms overlap by so much that most bodies that go to another rank are
+/// in its realm.
+Reach SharedBodies::reachOfAll(const DealtOut& world) {
     const BodyStorage& bodies = world.bodies;
     const double way = wayOf(world);
     std::vector<Extents> of_threads(static_cast<std::size_t>(world.executor.threads()));
@@ -135,20 +144,27 @@ Bounds SharedBodies::reachOfAll(const DealtOut& world) {
             Bounds cover = cubeAround(bodies.position[i], (1 + 2 * slack) * radius);
             extend(cover, time_ahead * bodies.v[i]);
             include(all.box, cover);
+            all.radii += radius;
+            ++all.count;
             all.r_max = std::max(all.r_max, bodies.r_max[i]);
             all.r_min = std::max(all.r_min, bodies.r_min[i]);
         }
         of_threads[static_cast<std::size_t>(thread)] = all;
     });
-    Bounds box = emptyBounds();
+    Reach reach;
+    double radii = 0;
+    std::size_t count = 0;
     largest_r_max_ = 0;
     largest_r_min_ = 0;
     for (const Extents& all : of_threads) {
-        include(box, all.box);
+        include(reach.box, all.box);
+        radii += all.radii;
+        count += all.count;
         largest_r_max_ = std::max(largest_r_max_, all.r_max);
         largest_r_min_ = std::max(largest_r_min_, all.r_min);
     }
-    return box;
+    if (count > 0) reach.beside = radii_beside * radii / static_cast<double>(count);
+    return reach;
 }
 
 /// Lets every rank know the bodies whose covers reach into its realm.
@@ -290,6 +306,8 @@ void SharedBodies::findOwners(const DealtOut& world) {
         const BodyIndex group = groups_.groupOf(n);
         const int owner = ownerOf(groups_.nameOf(group), groups_.middleOf(group), world.step);
         owner_[around_.slots[n]] = static_cast<std::uint32_t>(owner);
+        // Whoever stays, near what goes, is known to the new owner only in its realm.
+        if (!realms_.all()[static_cast<std::size_t>(owner)].contains(around_.bodies[n].cover)) is_compared_ = false;
     }
 }
 
@@ -297,9 +315,6 @@ void SharedBodies::findOwners(const DealtOut& world) {
 void SharedBodies::forgetGroups() {
     groups_ = NearGroups();
     around_ = Around();
-    near_ = {};
-    near_slots_ = {};
-    others_ = {};
 }
 
 }  // namespace cairn

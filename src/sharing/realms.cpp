@@ -36,9 +36,9 @@ struct Margins {
     Vec3 below, above;
 };
 
-/// Two boxes meet in the middle between them; where they overlap they go no farther towards each other.
-void limit(Margins& one, Margins& other, const Gap& gap) {
-    const double half = std::max(0.0, gap.width / 2);
+/// Two boxes meet in the middle between them; where they overlap they go only little farther towards each other.
+void limit(Margins& one, Margins& other, const Gap& gap, double beside) {
+    const double half = gap.width < 0 ? beside : gap.width / 2;
     double& first = gap.is_after ? one.above[gap.axis] : one.below[gap.axis];
     double& second = gap.is_after ? other.below[gap.axis] : other.above[gap.axis];
     first = std::min(first, half);
@@ -60,15 +60,19 @@ void cutOff(Bounds& core, const Bounds& other) {
 
 }  // namespace
 
-Realms::Realms(std::span<const Bounds> reach, std::size_t own, double ahead) : all_(reach.begin(), reach.end()) {
+Realms::Realms(std::span<const Reach> reach, std::size_t own, double ahead) {
     std::vector<Margins> margins;
-    for (const Bounds& box : reach) {
+    for (const auto& [box, beside] : reach) {
+        all_.push_back(box);
         const double farther = isEmpty(box) ? 0 : ahead + part_ahead * (box.upper - box.lower).maxCoeff();
         margins.push_back({Vec3::Constant(farther), Vec3::Constant(farther)});
     }
     for (std::size_t r = 0; r < reach.size(); ++r) {
         for (std::size_t s = r + 1; s < reach.size(); ++s) {
-            if (!isEmpty(reach[r]) && !isEmpty(reach[s])) limit(margins[r], margins[s], gapOf(reach[r], reach[s]));
+            const auto& [box, beside] = reach[r];
+            const auto& [other, other_beside] = reach[s];
+            if (isEmpty(box) || isEmpty(other)) continue;
+            limit(margins[r], margins[s], gapOf(box, other), std::max(beside, other_beside));
         }
     }
     for (std::size_t r = 0; r < reach.size(); ++r) {
@@ -78,7 +82,7 @@ Realms::Realms(std::span<const Bounds> reach, std::size_t own, double ahead) : a
     own_ = all_[own];
     core_ = own_;
     for (std::size_t r = 0; r < reach.size(); ++r) {
-        if (r == own || isEmpty(reach[r]) || !own_.overlaps(all_[r])) continue;
+        if (r == own || isEmpty(reach[r].box) || !own_.overlaps(all_[r])) continue;
         beside_.push_back(all_[r]);
         cutOff(core_, all_[r]);
     }

@@ -21,15 +21,21 @@ inline void include(Bounds& bounds, const Bounds& other) {
     bounds.upper = bounds.upper.cwiseMax(other.upper);
 }
 
+/// Where the bodies of a rank may be for some time.
+struct Reach {
+    Bounds box = emptyBounds();  ///< around all of them; empty if there are none [m, W]
+    double beside = 0;           ///< how far the box goes into that of another rank which it overlaps anyway [m, ≥ 0]
+};
+
 /// One box per rank. As long as all that a body of a rank reaches is in the box of its rank and in that of no other, it
 /// cannot meet bodies of other ranks for which the same is true.
 class Realms {
   public:
     /// Boxes of which nothing is known: no place is free.
     Realms() = default;
-    /// @param reach around what the bodies of each rank reach for some time; empty bounds where it has none [m, W]
-    /// @param own this rank @param ahead how much farther the boxes go where no other rank is [m, ≥ 0]
-    Realms(std::span<const Bounds> reach, std::size_t own, double ahead);
+    /// @param reach of each rank, the same on all of them @param own this rank
+    /// @param ahead how much farther the boxes go where no other rank is [m, ≥ 0]
+    Realms(std::span<const Reach> reach, std::size_t own, double ahead);
 
     /// Whether a place is in the box of this rank and in no other.
     bool isFree(const Bounds& place) const;

@@ -130,7 +130,7 @@ class SharedBodies {
     bool hasLeft(const DealtOut& world) const;
     bool isCovered(const DealtOut& world, BodyIndex i, double way, const Bounds* cover) const;
     void compare(const DealtOut& world);
-    Bounds reachOfAll(const DealtOut& world);
+    Reach reachOfAll(const DealtOut& world);
     void tellNear(const DealtOut& world);
     bool findMoving(const DealtOut& world);
     void findGroupsOf(const DealtOut& world, std::span<const BodyIndex> some);
@@ -140,6 +140,7 @@ class SharedBodies {
     void forJoined(const DealtOut& world, const Visit& visit) const;
     void findOwners(const DealtOut& world);
     void forgetGroups();
+    void forgetNear();
     int ownerOf(BodyIndex name, const Vec3& place, std::int64_t step) const;
     bool moveAway(const DealtOut& world, Ranks::Messages& out);
     void makeRoom(const DealtOut& world, const Ranks::Messages& in);
@@ -175,7 +176,7 @@ class SharedBodies {
     Realms realms_;
     double largest_r_max_ = 0;           ///< of the bodies here [m]
     double largest_r_min_ = 0;           ///< likewise
-    std::vector<CoveredBody> near_;      ///< own bodies that other ranks know
+    std::vector<CoveredBody> near_;      ///< own bodies that other ranks know, or that came since
     std::vector<BodyIndex> near_slots_;  ///< theirs
     std::vector<std::uint8_t> is_near_;  ///< [slots] 1 = is one of them
     std::vector<CoveredBody> others_;    ///< bodies of other ranks that this one knows
