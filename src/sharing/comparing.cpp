@@ -307,7 +307,7 @@ void SharedBodies::findOwners(const DealtOut& world) {
         const int owner = ownerOf(groups_.nameOf(group), groups_.middleOf(group), world.step);
         owner_[around_.slots[n]] = static_cast<std::uint32_t>(owner);
         // Whoever stays, near what goes, is known to the new owner only in its realm.
-        if (!realms_.all()[static_cast<std::size_t>(owner)].contains(around_.bodies[n].cover)) is_compared_ = false;
+        is_compared_ = is_compared_ && realms_.all()[static_cast<std::size_t>(owner)].contains(around_.bodies[n].cover);
     }
 }
 
