@@ -368,6 +368,9 @@ class World {
     /// What this rank has of a divided world, in bytes: the parts of all ranks, and what they have in common, are the
     /// world. @throws InputError for a world that is not divided
     std::vector<std::byte> savePart() const;
+    /// The same, page by page, so that it is never in memory as a whole. @param append takes bytes that follow those
+    /// before @throws InputError likewise; what append throws
+    void savePart(const std::function<void(std::span<const std::byte>)>& append) const;
     /// What all ranks have of a divided world; to be called by the first one. @throws InputError as savePart()
     std::vector<std::byte> saveCommon() const;
     /// A whole world from the parts of all ranks; it may be shared again with any number of ranks.
