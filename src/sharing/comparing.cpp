@@ -79,6 +79,21 @@ Bounds SharedBodies::coverOf(const DealtOut& world, BodyIndex i) const {
     return cover;
 }
 
+/// A ball around the centre of any body here holds its cover with this radius [m]. @pre largest_r_max_, largest_r_min_
+double SharedBodies::largestCover(const DealtOut& world) const {
+    const double radius = radiusOf(world.range, largest_r_max_, largest_r_min_, wayOf(world));
+    return (1 + 2 * slack) * radius + time_ahead * world.speed;
+}
+
+/// A cover, or more, that is quickly told. @param way as wayOf()
+Bounds SharedBodies::roughCoverOf(const DealtOut& world, BodyIndex i, double way) const {
+    const BodyStorage& bodies = world.bodies;
+    const double radius = radiusOf(world.range, bodies.r_max[i], bodies.r_min[i], way);
+    Bounds cover = cubeAround(bodies.position[i], (1 + 2 * slack) * radius);
+    extend(cover, time_ahead * bodies.v[i]);
+    return cover;
+}
+
 /// Whether what a body reaches is within its cover, or within the realm of this rank and no other.
 /// @param way as wayOf() @param cover null = none
 bool SharedBodies::isCovered(const DealtOut& world, BodyIndex i, double way, const Bounds* cover) const {
@@ -140,11 +155,8 @@ Reach SharedBodies::reachOfAll(const DealtOut& world) {
         Extents all;
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
             if (!isOwn(bodies, i)) continue;
-            const double radius = radiusOf(world.range, bodies.r_max[i], bodies.r_min[i], way);
-            Bounds cover = cubeAround(bodies.position[i], (1 + 2 * slack) * radius);
-            extend(cover, time_ahead * bodies.v[i]);
-            include(all.box, cover);
-            all.radii += radius;
+            include(all.box, roughCoverOf(world, i, way));
+            all.radii += radiusOf(world.range, bodies.r_max[i], bodies.r_min[i], way);
             ++all.count;
             all.r_max = std::max(all.r_max, bodies.r_max[i]);
             all.r_min = std::max(all.r_min, bodies.r_min[i]);
@@ -176,13 +188,10 @@ void SharedBodies::tellNear(const DealtOut& world) {
     is_near_.assign(bodies.slots(), 0);
     Ranks::Messages out(static_cast<std::size_t>(ranks_.size()));
     const double way = wayOf(world);
+    const Bounds core = realms_.core().grown(-largestCover(world));
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (!isOwn(bodies, i)) continue;
-        const double radius = radiusOf(world.range, bodies.r_max[i], bodies.r_min[i], way);
-        Bounds place = cubeAround(bodies.position[i], (1 + 2 * slack) * radius);
-        if (realms_.core().contains(place)) continue;
-        extend(place, time_ahead * bodies.v[i]);
-        if (!realms_.reachesOthers(place)) continue;
+        if (core.contains({bodies.position[i], bodies.position[i]}) || !isOwn(bodies, i)) continue;
+        if (!realms_.reachesOthers(roughCoverOf(world, i, way))) continue;
         const CoveredBody body{bodies.homeOf(i), coverOf(world, i)};
         if (!realms_.reachesOthers(body.cover)) continue;
         near_.push_back(body);
@@ -237,6 +246,8 @@ void SharedBodies::forJoined(const DealtOut& world, const Visit& visit) const {
 void SharedBodies::findGroupsOf(const DealtOut& world, std::span<const BodyIndex> some) {
     Bounds zone = emptyBounds();
     for (const BodyIndex i : some) include(zone, coverOf(world, i));
+    // Most groups are small.
+    zone = zone.grown(largestCover(world));
     for (int zones = 1;; ++zones) {
         findGroups(world, zone);
         std::vector<std::uint8_t> of_group(around_.slots.size(), 0);
@@ -257,12 +268,10 @@ void SharedBodies::findGroups(const DealtOut& world, const Bounds& zone) {
     around_.index.assign(bodies.slots(), no_slot);
     const double way = wayOf(world);
     std::vector<Vec3> positions;
+    const Bounds nearby = zone.grown(largestCover(world));
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (!isOwn(bodies, i)) continue;
-        const double radius = radiusOf(world.range, bodies.r_max[i], bodies.r_min[i], way);
-        Bounds place = cubeAround(bodies.position[i], (1 + 2 * slack) * radius);
-        extend(place, time_ahead * bodies.v[i]);
-        if (!place.overlaps(zone)) continue;
+        if (!nearby.contains({bodies.position[i], bodies.position[i]}) || !isOwn(bodies, i)) continue;
+        if (!roughCoverOf(world, i, way).overlaps(zone)) continue;
         const Bounds cover = coverOf(world, i);
         if (!cover.overlaps(zone)) continue;
         around_.index[i] = static_cast<BodyIndex>(around_.slots.size());

@@ -127,6 +127,8 @@ class SharedBodies {
     double wayOf(const DealtOut& world) const;
     Bounds reachOf(const DealtOut& world, BodyIndex i) const;
     Bounds coverOf(const DealtOut& world, BodyIndex i) const;
+    double largestCover(const DealtOut& world) const;
+    Bounds roughCoverOf(const DealtOut& world, BodyIndex i, double way) const;
     bool hasLeft(const DealtOut& world) const;
     bool isCovered(const DealtOut& world, BodyIndex i, double way, const Bounds* cover) const;
     void compare(const DealtOut& world);
