@@ -2,6 +2,7 @@
 /// together. Only those that another rank may reach are looked at closely.
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "messages/packing.h"
 #include "sharing/body_records.h"
@@ -49,6 +50,7 @@ struct Extents {
     Bounds box = emptyBounds();  ///< around their covers [m, W]
     double r_max = 0;            ///< largest [m]
     double r_min = 0;            ///< largest [m]
+    double v_squared = 0;        ///< largest of their centres [m²/s²]
     double radii = 0;            ///< sum of those of balls around covers [m]
     std::size_t count = 0;
 };
@@ -79,10 +81,10 @@ Bounds SharedBodies::coverOf(const DealtOut& world, BodyIndex i) const {
     return cover;
 }
 
-/// A ball around the centre of any body here holds its cover with this radius [m]. @pre largest_r_max_, largest_r_min_
+/// A ball around the centre of any body here holds its cover with this radius [m].
 double SharedBodies::largestCover(const DealtOut& world) const {
     const double radius = radiusOf(world.range, largest_r_max_, largest_r_min_, wayOf(world));
-    return (1 + 2 * slack) * radius + time_ahead * world.speed;
+    return (1 + 2 * slack) * radius + time_ahead * largest_v_;
 }
 
 /// A cover, or more, that is quickly told. @param way as wayOf()
@@ -160,6 +162,7 @@ Reach SharedBodies::reachOfAll(const DealtOut& world) {
             ++all.count;
             all.r_max = std::max(all.r_max, bodies.r_max[i]);
             all.r_min = std::max(all.r_min, bodies.r_min[i]);
+            all.v_squared = std::max(all.v_squared, bodies.v[i].squaredNorm());
         }
         of_threads[static_cast<std::size_t>(thread)] = all;
     });
@@ -168,12 +171,14 @@ Reach SharedBodies::reachOfAll(const DealtOut& world) {
     std::size_t count = 0;
     largest_r_max_ = 0;
     largest_r_min_ = 0;
+    largest_v_ = 0;
     for (const Extents& all : of_threads) {
         include(reach.box, all.box);
         radii += all.radii;
         count += all.count;
         largest_r_max_ = std::max(largest_r_max_, all.r_max);
         largest_r_min_ = std::max(largest_r_min_, all.r_min);
+        largest_v_ = std::max(largest_v_, rounding * std::sqrt(all.v_squared));
     }
     if (count > 0) reach.beside = radii_beside * radii / static_cast<double>(count);
     return reach;

@@ -176,8 +176,9 @@ class SharedBodies {
     // Until the next comparison each body is within the realm of its rank and no other, or within its cover.
     bool is_compared_ = false;
     Realms realms_;
-    double largest_r_max_ = 0;           ///< of the bodies here [m]
+    double largest_r_max_ = 0;           ///< of the bodies here, at the last comparison [m]
     double largest_r_min_ = 0;           ///< likewise
+    double largest_v_ = 0;               ///< likewise, of their centres [m/s]
     std::vector<CoveredBody> near_;      ///< own bodies that other ranks know, or that came since
     std::vector<BodyIndex> near_slots_;  ///< theirs
     std::vector<std::uint8_t> is_near_;  ///< [slots] 1 = is one of them
