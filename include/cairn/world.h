@@ -343,8 +343,8 @@ class World {
     /// events() and the diagnostics of statistics() are of the whole world, on all ranks.
     /// @param ranks must outlive the world @throws InputError for a grid that is not one for so many ranks
     void share(Ranks& ranks, const Partition& partition = {});
-    /// The same for a world without bodies: of those added before the next step a rank keeps the fixed ones and those of
-    /// its region. All ranks add the same in the same order, and get all ids. Materials, groups and the like come before.
+    /// The same for a world without bodies: of those added before the next step a rank keeps the fixed ones and those
+    /// of its region. All ranks add the same in the same order. Materials, groups and the like come before.
     /// @param places where the bodies will be [m, W], or as many of them as show where they are many: only how evenly
     ///        they are divided depends on it
     /// @throws InputError as above, for a world that has bodies, and for places beyond the limit; addBody() then throws
