@@ -272,8 +272,7 @@ class SceneRun {
     /// Ids of the scene's bodies, by index; stale once removed.
     const std::vector<BodyId>& ids() const { return ids_; }
 
-    /// Applies the events that are due, then steps the world once. A shared world is gathered before an event,
-    /// and in every step of a scene with drives.
+    /// Applies the events that are due, then steps the world once. A shared world is gathered before an event.
     void step();
     /// One simulation step: the time steps until one ends at the next thirtieth of a second or later.
     /// @return the sum of the statistics of its time steps

@@ -338,14 +338,13 @@ class World {
     /// Shares the world with other ranks, each of which has made the same one by the same calls. From the next step on
     /// every rank has a part of the bodies that move, with the bits that one rank would have; between steps it knows
     /// these and the fixed bodies only, and calls that change bodies or need all of them throw an InputError until
-    /// gather() is called. stateHash(), kineticEnergy() and the like, contacts() and statistics() are then of what this
-    /// rank has; sums(), events() and the diagnostics of statistics() are of the whole world, on all ranks.
+    /// gather() is called, but setConstantForce() and the like where the body is, and setters of joints on all ranks.
+    /// stateHash(), kineticEnergy() and the like, contacts() and statistics() are then of what this rank has; sums(),
+    /// events() and the diagnostics of statistics() are of the whole world, on all ranks.
     /// @param ranks must outlive the world @throws InputError for a grid that is not one for so many ranks
     void share(Ranks& ranks, const Partition& partition = {});
-    /// The same for a world without bodies, so that no rank ever has all: of those that are added from now on to the
-    /// next step a rank keeps the fixed ones and those that move in its region. All ranks add the same bodies in the
-    /// same order, and each gets all ids. Materials, groups and the like come before, since the world is divided
-    /// already.
+    /// The same for a world without bodies: of those added before the next step a rank keeps the fixed ones and those
+    /// of its region. All ranks add the same in the same order. Materials, groups and the like come before.
     /// @param places where the bodies will be [m, W], or as many of them as show where they are many: only how evenly
     ///        they are divided depends on it
     /// @throws InputError as above, for a world that has bodies, and for places beyond the limit; addBody() then throws
@@ -365,9 +364,10 @@ class World {
     // --- snapshots ---
     /// Everything that the world is, so that it goes on bit by bit as it would have. @source docs/snapshots.md
     std::vector<std::byte> save() const;
-    /// What this rank has of a divided world, in bytes: the parts of all ranks, and what they have in common, are the
-    /// world. @throws InputError for a world that is not divided
-    std::vector<std::byte> savePart() const;
+    /// What this rank has of a divided world: the parts of all ranks, and what they have in common, are the world.
+    /// @param append takes the next bytes @throws InputError for a world that is not divided; what append throws
+    void savePart(const std::function<void(std::span<const std::byte>)>& append) const;
+    std::vector<std::byte> savePart() const;  ///< the same, all in memory
     /// What all ranks have of a divided world; to be called by the first one. @throws InputError as savePart()
     std::vector<std::byte> saveCommon() const;
     /// A whole world from the parts of all ranks; it may be shared again with any number of ranks.

@@ -153,21 +153,24 @@ void Selection::finish() {
         }
         if (part.took_along) wakePushed(part);
     });
-    const bool compares = input_->selecting == Selecting::awake_parts;
-    const std::span<Contact> contacts = input_->contacts;
-    if (!anybody_sleeps_) {
-        if (!compares) return;
-        input_->executor.forBlocks(contacts.size(), [&](std::size_t begin, std::size_t end, int) {
-            for (Contact& contact : contacts.subspan(begin, end - begin)) contact.reference_impulse = contact.impulse;
-        });
-        return;
-    }
-    input_->executor.forBlocks(contacts.size(), [&](std::size_t begin, std::size_t end, int) {
-        for (Contact& contact : contacts.subspan(begin, end - begin)) {
-            if (!isFree(contact.a) && !isFree(contact.b)) contact.impulse += contact.last_impulse;
-            if (compares && !isHeld(contact.a) && !isHeld(contact.b)) contact.reference_impulse = contact.impulse;
-        }
-    });
+    if (!anybody_sleeps_ && input_->selecting != Selecting::awake_parts) return;
+    // What is in no batch was not resolved now, and held by others than these if at all.
+    input_->executor.forBlocks(
+        input_->batches.size(),
+        [&](std::size_t begin, std::size_t end, int) {
+            for (const BatchView& batch : input_->batches.subspan(begin, end - begin)) {
+                for (const std::uint32_t c : batch.contacts) finishContact(input_->contacts[c]);
+            }
+        },
+        batch_grain);
+}
+
+/// Gives back what a contact of two held bodies had, and notes what others end with.
+void Selection::finishContact(Contact& contact) const {
+    if (anybody_sleeps_ && !isFree(contact.a) && !isFree(contact.b)) contact.impulse += contact.last_impulse;
+    if (input_->selecting != Selecting::awake_parts) return;
+    if (anybody_sleeps_ && (isHeld(contact.a) || isHeld(contact.b))) return;
+    contact.reference_impulse = contact.impulse;
 }
 
 /// Unless most of a batch is held, resolving a part saves less than it may waste.

@@ -91,6 +91,7 @@ class Selection {
 
     Choice choiceOf(const BatchView& batch) const;
     bool sleeps(BodyIndex i) const { return bodies().asleep[i] != 0 && isAtRest(bodies(), i); }
+    void finishContact(Contact& contact) const;
     bool isHeld(BodyIndex i) const { return part_[i] == Part::held; }
     bool isFree(BodyIndex i) const { return !isHeld(i) && !bodies().isFixed(i); }
     const BodyState& bodies() const { return input_->bodies; }

@@ -131,7 +131,7 @@ constexpr std::array<JointAlong, 2> free_universal = {turn_x, turn_y};
 constexpr std::array<JointAlong, 3> free_planar = {y, z, turn_x};
 constexpr std::array<JointAlong, 2> free_cylindrical = {x, turn_x};
 
-constexpr std::array<JointKindEntry, 15> entries = {{
+constexpr std::array<JointKindEntry, 15> kinds_in_order = {{
     {"distance", "distance", {.length = true}, {}, keepLength, moveLength},
     {"rope", "rope", {.length = true}, {}, keepNothing, moveLength},
     {"ball", "ball joint", {.second_axis = true, .cone = true, .axes = true}, free_ball, keepPoint, moveBall},
@@ -174,16 +174,16 @@ constexpr std::array<JointKindEntry, 15> entries = {{
     {"locked", "body with locked axes", {}, {}, keepLocked, moveLength},
 }};
 
-static_assert(entries.size() == static_cast<std::size_t>(body_locks) + 1);
+static_assert(kinds_in_order.size() == static_cast<std::size_t>(body_locks) + 1);
 
 }  // namespace
 
 std::span<const JointKindEntry> jointKinds() {
-    return std::span(entries).first(static_cast<std::size_t>(body_locks));
+    return std::span(kinds_in_order).first(static_cast<std::size_t>(body_locks));
 }
 
 const JointKindEntry& entryOf(JointKind kind) {
-    return entries[static_cast<std::size_t>(kind)];
+    return kinds_in_order[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace cairn

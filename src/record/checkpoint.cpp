@@ -24,11 +24,16 @@ struct PartMark {
     std::uint64_t check = 0;  ///< the last of its checksums
 };
 
+/// Adds bytes that follow those before. Checksums are never divided.
+void extend(PartMark& mark, std::span<const std::byte> bytes) {
+    mark.size += bytes.size();
+    if (bytes.size() >= sizeof mark.check)
+        std::memcpy(&mark.check, bytes.last(sizeof mark.check).data(), sizeof mark.check);
+}
+
 PartMark markOf(const std::vector<std::byte>& part) {
-    PartMark mark{part.size(), 0};
-    if (part.size() >= sizeof mark.check) {
-        std::memcpy(&mark.check, part.data() + part.size() - sizeof mark.check, sizeof mark.check);
-    }
+    PartMark mark;
+    extend(mark, part);
     return mark;
 }
 
@@ -154,9 +159,14 @@ void writeParts(const SceneRun& run, const std::filesystem::path& file) {
     const std::filesystem::path part = partFile(file, serial, static_cast<std::size_t>(ranks.rank()));
     try {
         const std::vector<PartMark> marks = together<PartMark>(ranks, [&] {
-            const std::vector<std::byte> bytes = run.world().savePart();
-            replaceFile(part, bytes);
-            return markOf(bytes);
+            PartMark mark;
+            replaceFile(part, [&](const AppendBytes& append) {
+                run.world().savePart([&](std::span<const std::byte> page) {
+                    extend(mark, page);
+                    append(page);
+                });
+            });
+            return mark;
         });
         together<bool>(ranks, [&] {
             if (is_first) writeNames(run, file, serial, marks);

@@ -282,7 +282,6 @@ void SceneRun::step() {
         world_.gather();
         inContext(fmt::format("event at {} s", event.time), [&] { apply(event.action); });
     }
-    if (!curves_.empty()) world_.gather();
     for (std::size_t i = 0; i < curves_.size(); ++i) {
         inContext(fmt::format("drive {}", i),
                   [&] { applyDrive(scene().drives[i], *curves_[i], scene(), ids_, world_); });

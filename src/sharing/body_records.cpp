@@ -91,6 +91,16 @@ bool isSent(const Shape& shape) {
     return sent;
 }
 
+void packBounds(std::vector<std::byte>& message, const Bounds& bounds) {
+    pack(message, bounds.lower);
+    pack(message, bounds.upper);
+}
+
+Bounds unpackBounds(Unpacker& in) {
+    const Vec3 lower = in.get<Vec3>();
+    return {lower, in.get<Vec3>()};
+}
+
 void packBody(std::vector<std::byte>& message, const BodyStorage& bodies, BodyIndex i) {
     forPlainFields(bodies, [&](const auto& values) { pack(message, values[i]); });
     packShape(message, bodies.shape[i]);

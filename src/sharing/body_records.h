@@ -6,6 +6,7 @@
 
 #include "body/body_storage.h"
 #include "body/contact.h"
+#include "geometry/geometry.h"
 #include "joints/joint.h"
 #include "messages/packing.h"
 
@@ -13,6 +14,9 @@ namespace cairn {
 
 /// Whether a shape is sent with its body: it is of a few numbers. Others are on all ranks.
 bool isSent(const Shape& shape);
+
+void packBounds(std::vector<std::byte>& message, const Bounds& bounds);
+Bounds unpackBounds(Unpacker& in);
 
 /// Appends all fields of a body but a shape that is not sent.
 void packBody(std::vector<std::byte>& message, const BodyStorage& bodies, BodyIndex i);

@@ -16,20 +16,22 @@ namespace {
 constexpr std::size_t vacant_part = 16;
 
 /// What follows in a message to another rank.
-enum class Item : std::uint8_t { slots, body, contact, joint };
+enum class Item : std::uint8_t { slots, body, cover, contact, joint };
 
 }  // namespace
 
 /// Brings the bodies, and all that has an entry of each, into slots with other homes.
 void SharedBodies::takeHomes(const DealtOut& world, std::vector<BodyIndex> homes) {
+    // While arrays of all bodies are copied, what these take is most, and they are found anew next time anyway.
+    forgetGroups();
     const SlotMove move = world.bodies.takeHomes(std::move(homes));
     // A new slot is for a body that another rank has.
     rearrange(kind_, move, BodyKind::dynamic);
     rearrange(stays_, move, 0);
     rearrange(solid_, move, no_slot);
-    rearrange(cover_, move, {});
-    rearrange(covered_, move, 0);
     rearrange(owner_, move, no_rank);
+    rearrange(is_near_, move, 0);
+    for (BodyIndex& slot : near_slots_) slot = move(slot);
     rearrange(left_, move, 0);
     world.rearrange(move);
 }
@@ -95,8 +97,8 @@ bool SharedBodies::moveAway(const DealtOut& world, Ranks::Messages& out) {
     bool any = false;
     left_.assign(bodies.slots(), 0);
     std::vector<std::vector<BodyIndex>> leaving(out.size());
-    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (isOwn(bodies, i) && owner_[i] != own) leaving[owner_[i]].push_back(bodies.homeOf(i));
+    for (const BodyIndex i : around_.slots) {
+        if (owner_[i] != own) leaving[owner_[i]].push_back(bodies.homeOf(i));
     }
     // Who gets bodies first makes room for all of them.
     for (std::size_t to = 0; to < out.size(); ++to) {
@@ -105,14 +107,18 @@ bool SharedBodies::moveAway(const DealtOut& world, Ranks::Messages& out) {
         pack(out[to], std::uint64_t{leaving[to].size()});
         for (const BodyIndex home : leaving[to]) pack(out[to], home);
     }
-    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (!isOwn(bodies, i) || owner_[i] == own) continue;
+    for (std::size_t n = 0; n < around_.slots.size(); ++n) {
+        const BodyIndex i = around_.slots[n];
+        if (owner_[i] == own) continue;
         packResident(out[owner_[i]], world, i);
+        pack(out[owner_[i]], Item::cover);
+        packBounds(out[owner_[i]], around_.bodies[n].cover);
         leave(bodies, i);
         left_[i] = 1;
         any = true;
     }
     if (!any) return false;
+    forgetNear();
     for (const Contact& contact : world.contacts) {
         const std::uint32_t holder = holderOf(contact);
         if (holder != no_rank && holder != own) packNamed(out[holder], bodies, contact);
@@ -135,13 +141,34 @@ bool SharedBodies::moveAway(const DealtOut& world, Ranks::Messages& out) {
     return true;
 }
 
-/// Makes slots for what others sent.
+/// Drops the covers of bodies that went.
+void SharedBodies::forgetNear() {
+    std::size_t kept = 0;
+    for (std::size_t n = 0; n < near_.size(); ++n) {
+        const BodyIndex i = near_slots_[n];
+        is_near_[i] = left_[i] == 0 ? 1 : 0;
+        if (left_[i] != 0) continue;
+        near_[kept] = near_[n];
+        near_slots_[kept++] = i;
+    }
+    near_.resize(kept);
+    near_slots_.resize(kept);
+}
+
+/// Makes slots for what others sent, and for the other bodies nearby: they are likely to be the next.
 void SharedBodies::makeRoom(const DealtOut& world, const Ranks::Messages& in) {
     std::vector<BodyIndex> homes;
     for (const auto& message : in) {
         Unpacker reader(message);
         if (reader.isAtEnd() || reader.get<Item>() != Item::slots) continue;
         for (auto left = reader.get<std::uint64_t>(); left > 0; --left) homes.push_back(reader.get<BodyIndex>());
+    }
+    const BodyStorage& bodies = world.bodies;
+    const auto has = [&](BodyIndex home) { return bodies.slotOf(home) != no_slot; };
+    const bool is_room = std::ranges::all_of(homes, has);
+    if (is_room) return;
+    if (others_.size() <= bodies.slots() / (2 * vacant_part)) {
+        for (const CoveredBody& other : others_) homes.push_back(other.home);
     }
     addHomes(world, std::move(homes));
 }
@@ -159,6 +186,11 @@ void SharedBodies::takeIn(const DealtOut& world, const Ranks::Messages& in) {
                     break;
                 case Item::body:
                     came_.push_back(unpackResident(reader, world));
+                    break;
+                case Item::cover:
+                    near_.push_back({bodies.homeOf(came_.back()), unpackBounds(reader)});
+                    near_slots_.push_back(came_.back());
+                    is_near_[came_.back()] = 1;
                     break;
                 case Item::contact:
                     contacts_.push_back(unpackContact(reader));
@@ -182,8 +214,6 @@ void SharedBodies::moveHouse(const DealtOut& world) {
     const bool left = moveAway(world, out);
     const Ranks::Messages in = ranks_.exchange(std::move(out));
     if (!left && std::ranges::all_of(in, &std::vector<std::byte>::empty)) return;
-    // While arrays of all bodies are copied, what they take is most, and these are found anew next time anyway.
-    groups_ = NearGroups();
     makeRoom(world, in);
     takeIn(world, in);
     world.pairs.change({left_, came_, contacts_}, world.contacts);
@@ -216,17 +246,12 @@ void SharedBodies::packResident(std::vector<std::byte>& message, const DealtOut&
     pack(message, Item::body);
     pack(message, world.bodies.homeOf(i));
     packWhole(message, world.bodies, i);
-    pack(message, cover_[i].lower);
-    pack(message, cover_[i].upper);
     if (world.begun != nullptr) pack(message, (*world.begun)[i]);
 }
 
 BodyIndex SharedBodies::unpackResident(Unpacker& in, const DealtOut& world) {
     const BodyIndex i = world.bodies.slotOf(in.get<BodyIndex>());
     unpackWhole(in, world.bodies, i);
-    cover_[i].lower = in.get<Vec3>();
-    cover_[i].upper = in.get<Vec3>();
-    covered_[i] = 1;
     owner_[i] = static_cast<std::uint32_t>(ranks_.rank());
     if (world.begun != nullptr) (*world.begun)[i] = in.get<Vec3>();
     return i;

@@ -1,170 +1,69 @@
 #include "sharing/near_groups.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
+#include <utility>
 
 #include "messages/packing.h"
+#include "sharing/body_records.h"
 
 namespace cairn {
 
-namespace {
-
-/// Bounds around nothing.
-Bounds emptyBounds() {
-    constexpr double far = std::numeric_limits<double>::infinity();
-    return {Vec3::Constant(far), Vec3::Constant(-far)};
-}
-
-void include(Bounds& bounds, const Bounds& other) {
-    bounds.lower = bounds.lower.cwiseMin(other.lower);
-    bounds.upper = bounds.upper.cwiseMax(other.upper);
-}
-
-void packBounds(std::vector<std::byte>& message, const Bounds& bounds) {
-    pack(message, bounds.lower);
-    pack(message, bounds.upper);
-}
-
-Bounds unpackBounds(Unpacker& in) {
-    const Vec3 lower = in.get<Vec3>();
-    return {lower, in.get<Vec3>()};
-}
-
-}  // namespace
-
-void NearGroups::find(const NearGroupsInput& input, const Executor& executor) {
-    begin(input);
-    searchAll(input);
-    connect(input, executor);
-    addBoxes(input);
-}
-
-bool NearGroups::meetOthers(const NearGroupsInput& input, const Executor& executor, Ranks& ranks) {
-    begin(input);
-    tellCovers(input, ranks);
-    input.search.findPairs({.kind = kind_, .bounds = cover_, .still = others_}, executor, pairs_);
-    const bool meets =
-        std::ranges::any_of(pairs_, [&](const BodyPair& pair) { return (others_[pair.a] | others_[pair.b]) != 0; });
-    const std::vector<std::uint8_t> all = gatherAll(ranks, static_cast<std::uint8_t>(meets ? 1 : 0));
-    return std::ranges::find(all, 1) != all.end();
-}
-
-void NearGroups::findAcross(const NearGroupsInput& input, const Executor& executor, Ranks& ranks) {
-    searchAll(input);
-    connect(input, executor);
-    addBoxes(input);
-    connectAcross(ranks);
-}
-
-void NearGroups::begin(const NearGroupsInput& input) {
-    const std::size_t slots = input.kind.size();
-    slots_ = slots;
-    behind_.clear();
-    home_.resize(slots);
-    parent_.resize(slots);
-    std::iota(parent_.begin(), parent_.end(), 0);
-    if (input.home.empty()) {
-        std::iota(home_.begin(), home_.end(), 0);
-    } else {
-        std::ranges::copy(input.home, home_.begin());
-    }
-    kind_.assign(slots, BodyKind::hole);
-    others_.assign(slots, 0);
-    cover_.resize(slots);
-    box_.resize(slots);
-    for (std::size_t i = 0; i < slots; ++i) {
-        if (input.kind[i] == BodyKind::dynamic) cover_[i] = input.cover[i];
-    }
-}
-
-/// All bodies of this rank are searched, with those of others that were told.
-void NearGroups::searchAll(const NearGroupsInput& input) {
-    for (std::size_t i = 0; i < slots_; ++i) {
-        if (input.kind[i] == BodyKind::dynamic) kind_[i] = BodyKind::dynamic;
-    }
-}
-
-/// Lets every rank know the covers of the bodies that come near its own; these and those that it told of are searched.
-void NearGroups::tellCovers(const NearGroupsInput& input, Ranks& ranks) {
-    const auto own = static_cast<std::size_t>(ranks.rank());
-    Bounds all = emptyBounds();
-    for (BodyIndex i = 0; i < slots_; ++i) {
-        if (input.kind[i] == BodyKind::dynamic) include(all, cover_[i]);
-    }
-    std::vector<std::byte> message;
-    packBounds(message, all);
-    std::vector<Bounds> reach;
-    for (const auto& told : tellAll(ranks, message)) {
-        Unpacker in(told);
-        reach.push_back(unpackBounds(in));
-    }
-    Ranks::Messages out(reach.size());
-    for (BodyIndex i = 0; i < slots_; ++i) {
-        if (input.kind[i] != BodyKind::dynamic) continue;
-        for (std::size_t to = 0; to < out.size(); ++to) {
-            if (to == own || !cover_[i].overlaps(reach[to])) continue;
-            pack(out[to], home_[i]);
-            packBounds(out[to], cover_[i]);
-            kind_[i] = BodyKind::dynamic;
-        }
-    }
-    for (const auto& told : ranks.exchange(std::move(out))) {
-        for (Unpacker in(told); !in.isAtEnd();) {
-            const BodyIndex i = entryOf(in.get<BodyIndex>());
-            cover_[i] = unpackBounds(in);
-            kind_[i] = BodyKind::dynamic;
-            others_[i] = 1;
-        }
-    }
-}
-
-/// Joins what is near on this rank, and notes the pairs with bodies of other ranks.
-void NearGroups::connect(const NearGroupsInput& input, const Executor& executor) {
-    input.search.findPairs({.kind = kind_, .bounds = cover_, .still = others_}, executor, pairs_);
+void NearGroups::meet(std::span<const CoveredBody> own, std::span<const CoveredBody> others, BroadPhase& search,
+                      const Executor& executor) {
     across_.clear();
-    near_others_.clear();
+    met_.clear();
+    met_homes_.clear();
+    if (own.empty() || others.empty()) return;
+    cover_.clear();
+    for (const auto bodies : {own, others}) {
+        for (const CoveredBody& body : bodies) cover_.push_back(body.cover);
+    }
+    // So no pairs of two bodies of this rank are found, and none of two others.
+    kind_.assign(own.size(), BodyKind::dynamic);
+    kind_.resize(cover_.size(), BodyKind::fixed);
+    still_.assign(own.size(), 1);
+    still_.resize(cover_.size(), 0);
+    search.findPairs({.kind = kind_, .bounds = cover_, .still = still_}, executor, pairs_);
     for (const BodyPair& pair : pairs_) {
-        if ((others_[pair.a] | others_[pair.b]) == 0) {
-            join(pair.a, pair.b);
-        } else {
-            across_.push_back(pair);
-            near_others_.push_back(others_[pair.a] == 0 ? pair.a : pair.b);
-        }
+        across_.push_back({own[pair.a].home, others[pair.b - own.size()].home});
+        if (met_.empty() || met_.back() != pair.a) met_.push_back(pair.a);
     }
-    const auto joinOwn = [&](BodyIndex a, BodyIndex b) {
-        if (input.kind[a] == BodyKind::dynamic && input.kind[b] == BodyKind::dynamic) join(a, b);
-    };
-    for (const Contact& contact : input.contacts) joinOwn(contact.a, contact.b);
-    for (const BodyPair& pair : input.tied) joinOwn(pair.a, pair.b);
-    std::ranges::sort(near_others_);
-    near_others_.erase(std::unique(near_others_.begin(), near_others_.end()), near_others_.end());
+    for (const std::uint32_t i : met_) met_homes_.push_back(own[i].home);
 }
 
-void NearGroups::addBoxes(const NearGroupsInput& input) {
-    for (BodyIndex i = 0; i < input.kind.size(); ++i) {
-        if (input.kind[i] == BodyKind::dynamic) box_[i] = emptyBounds();
+void NearGroups::find(const NearGroupsInput& input) {
+    own_ = input.bodies.size();
+    behind_.clear();
+    home_.clear();
+    cover_.clear();
+    for (const CoveredBody& body : input.bodies) {
+        home_.push_back(body.home);
+        cover_.push_back(body.cover);
     }
-    for (BodyIndex i = 0; i < input.kind.size(); ++i) {
-        if (input.kind[i] != BodyKind::dynamic) continue;
-        include(box_[representative(i)], {input.position[i], input.position[i]});
-    }
+    parent_.resize(own_);
+    std::iota(parent_.begin(), parent_.end(), 0);
+    kind_.assign(own_, BodyKind::dynamic);
+    input.search.findPairs({.kind = kind_, .bounds = cover_}, input.executor, pairs_);
+    for (const BodyPair& pair : pairs_) join(pair.a, pair.b);
+    for (const BodyPair& pair : input.joined) join(pair.a, pair.b);
+    box_.assign(own_, emptyBounds());
+    for (BodyIndex i = 0; i < own_; ++i) include(box_[representative(i)], {input.position[i], input.position[i]});
 }
 
-/// Joins groups that ranks share: each tells which of its bodies are near those of others, with what else of its
-/// groups they are, and the pairs.
-void NearGroups::connectAcross(Ranks& ranks) {
+/// Each rank tells which of its bodies met those of others, with what else of its groups they are, and the pairs.
+void NearGroups::joinAcross(Ranks& ranks) {
     std::vector<std::byte> message;
-    pack(message, static_cast<std::uint64_t>(near_others_.size()));
-    for (const BodyIndex i : near_others_) {
-        const BodyIndex group = representative(i);
-        pack(message, home_[i]);
+    pack(message, static_cast<std::uint64_t>(met_homes_.size()));
+    for (const BodyIndex home : met_homes_) {
+        const BodyIndex group = representative(entryOf(home));
+        pack(message, home);
         pack(message, home_[group]);
         packBounds(message, box_[group]);
     }
-    for (const BodyPair& pair : across_) {
-        // The other rank tells it otherwise.
-        if (others_[pair.a] == 0) pack(message, BodyPair{home_[pair.a], home_[pair.b]});
+    // The other rank finds each pair as well.
+    for (const Across& pair : across_) {
+        if (pair.own < pair.other) pack(message, BodyPair{pair.own, pair.other});
     }
     std::vector<std::pair<BodyIndex, Bounds>> boxes;
     for (const auto& told : tellAll(ranks, message)) {
@@ -187,19 +86,16 @@ void NearGroups::connectAcross(Ranks& ranks) {
 
 /// The entry of a body on any rank; one of which nothing was known is a group by itself.
 BodyIndex NearGroups::entryOf(BodyIndex home) {
-    const auto slots = std::span(home_).first(slots_);
-    const auto slot = std::ranges::lower_bound(slots, home);
-    if (slot != slots.end() && *slot == home) return static_cast<BodyIndex>(slot - slots.begin());
-    const auto [place, is_new] = behind_.emplace(home, static_cast<BodyIndex>(home_.size()));
+    const auto own = std::span(home_).first(own_);
+    const auto place = std::ranges::lower_bound(own, home);
+    if (place != own.end() && *place == home) return static_cast<BodyIndex>(place - own.begin());
+    const auto [entry, is_new] = behind_.emplace(home, static_cast<BodyIndex>(home_.size()));
     if (is_new) {
         home_.push_back(home);
-        parent_.push_back(place->second);
-        kind_.push_back(BodyKind::hole);
-        others_.push_back(1);
-        cover_.push_back(emptyBounds());
+        parent_.push_back(entry->second);
         box_.push_back(emptyBounds());
     }
-    return place->second;
+    return entry->second;
 }
 
 BodyIndex NearGroups::representative(BodyIndex i) {

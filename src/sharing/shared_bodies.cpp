@@ -12,13 +12,6 @@ namespace cairn {
 
 namespace {
 
-/// Covers are larger than what a detection searches by this part of the body's smallest extent, so that groups last for
-/// some steps. The larger, the more bodies stand in one group that do not touch.
-constexpr double slack = 0.1;
-
-/// … and by its way in the time that follows [s].
-constexpr double time_ahead = 1.0 / 60;
-
 /// Time steps after which bodies that went into the region of another rank and met nobody go there.
 constexpr std::int64_t home_every = 30;
 
@@ -88,8 +81,7 @@ void SharedBodies::beginAnew(std::size_t slots) {
     // What joints and the like name was fixed, and is on all ranks.
     stays_.assign(slots, 0);
     solid_.assign(slots, no_slot);
-    cover_.resize(slots);
-    covered_.assign(slots, 0);
+    is_compared_ = false;
     owner_.assign(slots, static_cast<std::uint32_t>(ranks_.rank()));
     left_.assign(slots, 0);
 }
@@ -107,13 +99,8 @@ void SharedBodies::settle(const DealtOut& world) {
     }
     if (is_taken_over_) cut(world.bodies);
     if (!isDue(world)) return;
-    coverAll(world);
-    const NearGroupsInput input = groupsInput(world);
-    // Where no bodies of two ranks meet, each may stay where it is.
-    if (!groups_.meetOthers(input, world.executor, ranks_) && !goHome(world.step)) return;
-    groups_.findAcross(input, world.executor, ranks_);
-    findOwners(world);
-    moveHouse(world);
+    compare(world);
+    if (findMoving(world)) moveHouse(world);
     is_taken_over_ = false;
 }
 
@@ -124,20 +111,19 @@ void SharedBodies::divide(const DealtOut& world) {
     stays_.assign(bodies.slots(), 0);
     for (const BodyIndex i : world.named) stays_[i] = 1;
     listSolids(bodies);
-    cover_.resize(bodies.slots());
-    covered_.assign(bodies.slots(), 0);
-    owner_.resize(bodies.slots());
+    const auto own = static_cast<std::uint32_t>(ranks_.rank());
+    owner_.assign(bodies.slots(), own);
+    is_compared_ = false;
     fastest_ = world.fastest;
     coverSpeed();
-    coverAll(world);
     std::vector<Vec3> places;
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (isOwn(bodies, i)) places.push_back(bodies.position[i]);
     }
     regions_.emplace(partition_, ranks_.size(), std::move(places));
-    groups_.find(groupsInput(world), world.executor);
+    findGroups(world, Bounds());
+    around_.moves.assign(around_.bodies.size(), 1);
     findOwners(world);
-    const auto own = static_cast<std::uint32_t>(ranks_.rank());
     std::erase_if(world.contacts, [&](const Contact& contact) {
         // What is left of bodies that were fixed since is for one rank to forget.
         const std::uint32_t holder = holderOf(contact);
@@ -154,7 +140,7 @@ void SharedBodies::divide(const DealtOut& world) {
     world.pairs.adopt(world.contacts);
     whole_ = false;
     // What was found of the whole world is not needed any more.
-    groups_ = NearGroups();
+    forgetGroups();
     left_.assign(bodies.slots(), 0);
     dropVacant(world, 0);
     bodies.adoptSlots(bodies.nextNumber());
@@ -178,22 +164,12 @@ bool SharedBodies::goHome(std::int64_t step) const {
     return partition_.restless || step % home_every == 0 || isRebalanced(step) || is_taken_over_;
 }
 
-/// Whether a body of this rank may be elsewhere, or look farther, than when its cover was last compared.
-bool SharedBodies::mayHaveLeft(const BodyStorage& bodies, BodyIndex i) const {
-    const bool stays = covered_[i] != 0 && bodies.asleep[i] != 0 && bodies.detected_position[i] == bodies.position[i] &&
-                       bodies.detected_orientation[i].coeffs() == bodies.orientation[i].coeffs();
-    return !stays;
-}
-
 /// Asks all ranks whether groups must be found anew.
 bool SharedBodies::isDue(const DealtOut& world) {
     const BodyStorage& bodies = world.bodies;
-    std::uint8_t wish = goHome(world.step) ? groups_anew : nothing;
+    std::uint8_t wish = goHome(world.step) || !is_compared_ || hasLeft(world) ? groups_anew : nothing;
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (kind_[i] == BodyKind::dynamic && bodies.kind[i] == BodyKind::fixed) wish |= tell_frozen;
-        if ((wish & groups_anew) != 0 || !isOwn(bodies, i) || !mayHaveLeft(bodies, i)) continue;
-        if (covered_[i] != 0 && (isWellCovered(world, i) || cover_[i].contains(reachOf(world, i)))) continue;
-        wish |= groups_anew;
     }
     std::uint8_t all = nothing;
     fastest_ = 0;
@@ -212,7 +188,6 @@ bool SharedBodies::isDue(const DealtOut& world) {
 /// Makes covers large enough for bodies that are struck now, and some that are faster.
 void SharedBodies::coverSpeed() {
     covered_speed_ = 1.25 * fastest_;
-    covers_anew_ = true;
 }
 
 /// Cuts all space anew, by where bodies are now; of many by where some of them are.
@@ -228,48 +203,6 @@ void SharedBodies::cut(const BodyStorage& bodies) {
         for (Unpacker in(told); !in.isAtEnd();) places.push_back(in.get<Vec3>());
     }
     regions_.emplace(partition_, ranks_.size(), std::move(places));
-}
-
-/// Where a detection searches a body, and where it may be followed to if it is struck.
-Bounds SharedBodies::reachOf(const DealtOut& world, BodyIndex i) const {
-    BodyAhead ahead;
-    Bounds reach = searchedBounds(world.bodies, world.range, i, ahead);
-    if (world.range.foresight.time == 0) return reach;
-    const Bounds struck = ahead.now.grown(covered_speed_ * world.range.foresight.time);
-    reach.lower = reach.lower.cwiseMin(struck.lower);
-    reach.upper = reach.upper.cwiseMax(struck.upper);
-    return reach;
-}
-
-/// Whether a ball that holds all that reachOf() can be is within the cover of a body. This is quickly told, and true of
-/// most.
-bool SharedBodies::isWellCovered(const DealtOut& world, BodyIndex i) const {
-    constexpr double rounding = 1.001;
-    const BodyStorage& bodies = world.bodies;
-    const Foresight& foresight = world.range.foresight;
-    const double r_min = bodies.r_min[i];
-    const double speed = bodies.v[i].norm() + foresight.fall.norm() + bodies.w[i].norm() * bodies.r_max[i];
-    const double way = foresight.time * std::max(speed, covered_speed_);
-    const double radius = rounding * (bodies.r_max[i] + world.range.marginOf(r_min, r_min) + way);
-    const Vec3 corner = Vec3::Constant(radius);
-    return cover_[i].contains({bodies.position[i] - corner, bodies.position[i] + corner});
-}
-
-/// Gives new covers to the bodies of this rank that move.
-void SharedBodies::coverAll(const DealtOut& world) {
-    const BodyStorage& bodies = world.bodies;
-    world.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
-        for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
-            if (!isOwn(bodies, i) || (!covers_anew_ && !mayHaveLeft(bodies, i))) continue;
-            const Bounds bounds = reachOf(world, i);
-            const Vec3 way = time_ahead * bodies.v[i];
-            cover_[i] = bounds.grown(slack * (bounds.upper - bounds.lower).minCoeff());
-            cover_[i].lower += way.cwiseMin(0);
-            cover_[i].upper += way.cwiseMax(0);
-            covered_[i] = 1;
-        }
-    });
-    covers_anew_ = false;
 }
 
 /// Lets all ranks know the bodies that were fixed by a fault: what is fixed is on all of them.
@@ -297,19 +230,6 @@ void SharedBodies::tellFrozen(const DealtOut& world) {
         }
     }
     if (any) bodies.adoptSlots(bodies.nextNumber());
-}
-
-NearGroupsInput SharedBodies::groupsInput(const DealtOut& world) const {
-    const BodyStorage& bodies = world.bodies;
-    return {bodies.kind, cover_, bodies.position, world.contacts, world.tied, world.search, bodies.homes()};
-}
-
-void SharedBodies::findOwners(const DealtOut& world) {
-    for (BodyIndex i = 0; i < world.bodies.slots(); ++i) {
-        if (!isOwn(world.bodies, i)) continue;
-        const BodyIndex group = groups_.groupOf(i);
-        owner_[i] = static_cast<std::uint32_t>(ownerOf(groups_.nameOf(group), groups_.middleOf(group), world.step));
-    }
 }
 
 /// The rank that a group belongs to; all ranks that have a part of it tell the same.

@@ -17,6 +17,7 @@
 #include "pairs/pair_table.h"
 #include "regions/regions.h"
 #include "sharing/near_groups.h"
+#include "sharing/realms.h"
 
 namespace cairn {
 
@@ -32,6 +33,7 @@ struct DealtOut {
     BroadPhase& search;                ///< of the detection that follows
     const DetectionRange& range;       ///< likewise
     double fastest;                    ///< of the bodies here: a struck one is looked ahead for so far [m/s]
+    double speed;                      ///< no point of a body here is faster [m/s]
     std::int64_t step;                 ///< number of the time step
     const Executor& executor;
     /// Called after the bodies were brought into other slots, for all else that names slots or has an entry of each.
@@ -105,10 +107,7 @@ class SharedBodies {
     void divide(const DealtOut& world);
     void moveHouse(const DealtOut& world);
     bool isDue(const DealtOut& world);
-    bool isWellCovered(const DealtOut& world, BodyIndex i) const;
     void coverSpeed();
-    Bounds reachOf(const DealtOut& world, BodyIndex i) const;
-    void coverAll(const DealtOut& world);
     void cut(const BodyStorage& bodies);
     void beginAnew(std::size_t slots);
     void tellFrozen(const DealtOut& world);
@@ -125,9 +124,25 @@ class SharedBodies {
     void packResident(std::vector<std::byte>& message, const DealtOut& world, BodyIndex i) const;
     BodyIndex unpackResident(Unpacker& in, const DealtOut& world);
     static void packNamed(std::vector<std::byte>& message, const BodyStorage& bodies, Contact contact);
-    NearGroupsInput groupsInput(const DealtOut& world) const;
-    bool mayHaveLeft(const BodyStorage& bodies, BodyIndex i) const;
+    double wayOf(const DealtOut& world) const;
+    Bounds reachOf(const DealtOut& world, BodyIndex i) const;
+    Bounds coverOf(const DealtOut& world, BodyIndex i) const;
+    double largestCover(const DealtOut& world) const;
+    Bounds roughCoverOf(const DealtOut& world, BodyIndex i, double way) const;
+    bool hasLeft(const DealtOut& world) const;
+    bool isCovered(const DealtOut& world, BodyIndex i, double way, const Bounds* cover) const;
+    void compare(const DealtOut& world);
+    Reach reachOfAll(const DealtOut& world);
+    void tellNear(const DealtOut& world);
+    bool findMoving(const DealtOut& world);
+    void findGroupsOf(const DealtOut& world, std::span<const BodyIndex> some);
+    void findGroups(const DealtOut& world, const Bounds& zone);
+    std::optional<Bounds> isCutBy(const DealtOut& world, const Bounds& zone) const;
+    template <class Visit>
+    void forJoined(const DealtOut& world, const Visit& visit) const;
     void findOwners(const DealtOut& world);
+    void forgetGroups();
+    void forgetNear();
     int ownerOf(BodyIndex name, const Vec3& place, std::int64_t step) const;
     bool moveAway(const DealtOut& world, Ranks::Messages& out);
     void makeRoom(const DealtOut& world, const Ranks::Messages& in);
@@ -145,21 +160,38 @@ class SharedBodies {
     Partition partition_;
     bool whole_ = true;
     bool is_dealing_ = false;
-    bool is_taken_over_ = false;         ///< and no space is cut yet
-    std::vector<BodyKind> kind_;         ///< [slots] of all bodies, wherever they are
-    std::vector<std::uint8_t> stays_;    ///< [slots] 1 = is named, and so has a slot on all ranks
-    std::vector<std::uint32_t> solid_;   ///< [slots] index of the shape in solids_; no_slot = it is sent with the body
-    std::vector<Shape> solids_;          ///< shapes of bodies that can move that are not sent, the same on all ranks
-    std::vector<Bounds> cover_;          ///< [slots] of own bodies: where groups were found for [m, W]
-    std::vector<std::uint8_t> covered_;  ///< [slots] 1 = has a cover
-    bool covers_anew_ = false;           ///< covers are for another speed than before
-    double fastest_ = 0;                 ///< [m/s]
-    double covered_speed_ = 0;           ///< that covers are for: nobody is followed out of them [m/s]
-    std::vector<std::uint32_t> owner_;   ///< [slots] of own bodies: where they go
-    std::vector<std::uint8_t> left_;     ///< [slots] 1 = went to another rank in this step
-    std::vector<BodyIndex> came_;        ///< in this step
-    std::vector<Contact> contacts_;      ///< of those, sorted by (a, b)
+    bool is_taken_over_ = false;        ///< and no space is cut yet
+    std::vector<BodyKind> kind_;        ///< [slots] of all bodies, wherever they are
+    std::vector<std::uint8_t> stays_;   ///< [slots] 1 = is named, and so has a slot on all ranks
+    std::vector<std::uint32_t> solid_;  ///< [slots] index of the shape in solids_; no_slot = it is sent with the body
+    std::vector<Shape> solids_;         ///< shapes of bodies that can move that are not sent, the same on all ranks
+    double fastest_ = 0;                ///< [m/s]
+    double covered_speed_ = 0;          ///< that covers are for: nobody is followed out of them [m/s]
+    std::vector<std::uint32_t> owner_;  ///< [slots] of own bodies: where they go
+    std::vector<std::uint8_t> left_;    ///< [slots] 1 = went to another rank in this step
+    std::vector<BodyIndex> came_;       ///< in this step
+    std::vector<Contact> contacts_;     ///< of those, sorted by (a, b)
     std::optional<Regions> regions_;
+
+    // Until the next comparison each body is within the realm of its rank and no other, or within its cover.
+    bool is_compared_ = false;
+    Realms realms_;
+    double largest_r_max_ = 0;           ///< of the bodies here, at the last comparison [m]
+    double largest_r_min_ = 0;           ///< likewise
+    double largest_v_ = 0;               ///< likewise, of their centres [m/s]
+    std::vector<CoveredBody> near_;      ///< own bodies that other ranks know, or that came since
+    std::vector<BodyIndex> near_slots_;  ///< theirs
+    std::vector<std::uint8_t> is_near_;  ///< [slots] 1 = is one of them
+    std::vector<CoveredBody> others_;    ///< bodies of other ranks that this one knows
+
+    /// Own bodies that groups were searched among.
+    struct Around {
+        std::vector<CoveredBody> bodies;
+        std::vector<BodyIndex> slots;     ///< theirs
+        std::vector<std::uint8_t> moves;  ///< 1 = its group may go elsewhere
+        std::vector<BodyIndex> index;     ///< [slots] among them; no_slot = it is not
+    };
+    Around around_;
     NearGroups groups_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 namespace cairn {
 
@@ -12,6 +13,9 @@ namespace {
 constexpr std::array<char, 8> magic = {'C', 'A', 'I', 'R', 'N', 'S', 'A', 'V'};
 /// Bytes that share one checksum: small enough that an offset helps, large enough that checksums do not count.
 constexpr std::size_t block_size = std::size_t{64} * 1024;
+
+/// Bytes that are handed over at once.
+constexpr std::size_t page_size = 16 * block_size;
 
 /// The first bytes of a frame; behind the content stands one checksum per block of it.
 struct Head {
@@ -69,6 +73,12 @@ std::string_view nameOf(FrameKind kind) {
     return "something unknown";
 }
 
+Head headOf(FrameKind kind, std::uint32_t version, std::uint64_t content) {
+    Head head{magic, static_cast<std::uint32_t>(kind), version, content, 0};
+    head.check = headCheck(head);
+    return head;
+}
+
 std::size_t blocksOf(std::uint64_t content) {
     return static_cast<std::size_t>((content + block_size - 1) / block_size);
 }
@@ -84,8 +94,7 @@ void sealFrame(std::span<std::byte> frame, FrameKind kind, std::uint32_t version
     const std::size_t behind = frame.size() - sizeof(Head);
     const std::size_t blocks = (behind + block_size + sizeof(std::uint64_t) - 1) / (block_size + sizeof(std::uint64_t));
     const std::size_t content = behind - blocks * sizeof(std::uint64_t);
-    Head head{magic, static_cast<std::uint32_t>(kind), version, content, 0};
-    head.check = headCheck(head);
+    const Head head = headOf(kind, version, content);
     std::memcpy(frame.data(), &head, sizeof head);
     for (std::size_t i = 0; i < blocks; ++i) {
         const std::size_t begin = i * block_size;
@@ -104,8 +113,57 @@ std::optional<FrameKind> frameKind(std::span<const std::byte> frame) {
 ByteWriter::ByteWriter(std::vector<std::byte>& buffer, FrameKind kind)
     : buffer_(buffer), kind_(kind), end_(sizeof(Head)) {}
 
-void ByteWriter::enlarge() {
-    buffer_.resize(std::max(end_, 2 * buffer_.size()));
+/// What of a frame is not in the buffer any more.
+struct ByteWriter::Pages {
+    const TakePage* append;     ///< null = it is only counted
+    std::uint64_t content = 0;  ///< bytes that were handed over
+    std::vector<std::uint64_t> sums{};
+};
+
+ByteWriter::ByteWriter(std::vector<std::byte>& page, FrameKind kind, Pages& pages)
+    : buffer_(page), kind_(kind), end_(0), pages_(&pages) {}
+
+/// Makes room for bytes at the end.
+void ByteWriter::enlarge(std::size_t bytes) {
+    if (pages_ == nullptr) {
+        buffer_.resize(std::max(end_, 2 * buffer_.size()));
+        return;
+    }
+    end_ -= bytes;
+    handOver(end_ / block_size * block_size);
+    end_ += bytes;
+    if (end_ > buffer_.size()) buffer_.resize(end_);
+}
+
+/// Takes so many bytes out of the buffer.
+void ByteWriter::handOver(std::size_t count) {
+    const auto bytes = std::span<const std::byte>(buffer_).first(count);
+    if (pages_->append != nullptr && count > 0) {
+        for (std::size_t at = 0; at < count; at += block_size) {
+            pages_->sums.push_back(checksum(bytes.subspan(at, std::min(block_size, count - at))));
+        }
+        (*pages_->append)(bytes);
+    }
+    pages_->content += count;
+    std::memmove(buffer_.data(), buffer_.data() + count, end_ - count);
+    end_ -= count;
+}
+
+void writeFrame(FrameKind kind, const TakePage& append, const std::function<void(ByteWriter&)>& save) {
+    std::vector<std::byte> page(page_size);
+    const auto putAll = [&](ByteWriter::Pages& pages) {
+        ByteWriter out(page, kind, pages);
+        save(out);
+        out.handOver(out.end_);
+    };
+    ByteWriter::Pages counted{nullptr};
+    putAll(counted);
+    const Head head = headOf(kind, snapshot_version, counted.content);
+    append(std::as_bytes(std::span(&head, 1)));
+    ByteWriter::Pages pages{&append};
+    putAll(pages);
+    if (pages.content != counted.content) throw std::logic_error("snapshots: one changed while it was written");
+    append(std::as_bytes(std::span(pages.sums)));
 }
 
 void ByteWriter::finish() {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,6 +38,9 @@ enum class FrameKind : std::uint32_t {
     run_common = 6     ///< as world_common, of a run
 };
 
+/// Takes bytes that follow those before.
+using TakePage = std::function<void(std::span<const std::byte>)>;
+
 /// Writes into a buffer whose memory is used again.
 class ByteWriter {
   public:
@@ -59,18 +63,27 @@ class ByteWriter {
     void finish();
 
   private:
+    struct Pages;
+    friend void writeFrame(FrameKind kind, const TakePage& append, const std::function<void(ByteWriter&)>& save);
+
+    ByteWriter(std::vector<std::byte>& page, FrameKind kind, Pages& pages);
     std::byte* grow(std::size_t bytes) {
-        const std::size_t begin = end_;
         end_ += bytes;
-        if (end_ > buffer_.size()) enlarge();
-        return buffer_.data() + begin;
+        if (end_ > buffer_.size()) enlarge(bytes);
+        return buffer_.data() + (end_ - bytes);
     }
-    void enlarge();
+    void enlarge(std::size_t bytes);
+    void handOver(std::size_t count);
 
     std::vector<std::byte>& buffer_;
     FrameKind kind_;
     std::size_t end_;
+    Pages* pages_ = nullptr;  ///< null = the buffer holds all
 };
+
+/// Writes a frame in pages, so that it is never in memory as a whole.
+/// @param save is called twice, as the head says how long the content is, and puts the same both times
+void writeFrame(FrameKind kind, const TakePage& append, const std::function<void(ByteWriter&)>& save);
 
 /// Reads what a ByteWriter wrote. Every refusal names the offset.
 class ByteReader {

@@ -87,7 +87,7 @@ void rearrangeAll(WorldState& world, const SlotMove& move) {
 }
 
 /// Everything of a world that is dealt out.
-DealtOut dealtOut(WorldState& world, std::vector<BodyPair>& tied, const DetectionRange& range) {
+DealtOut dealtOut(WorldState& world, std::vector<BodyPair>& tied, const DetectionRange& range, double speed) {
     StepData& data = world.data;
     return {.bodies = world.bodies,
             .pairs = data.pairs,
@@ -99,6 +99,7 @@ DealtOut dealtOut(WorldState& world, std::vector<BodyPair>& tied, const Detectio
             .search = world.broad_phase,
             .range = range,
             .fastest = data.fastest,
+            .speed = speed,
             .step = world.steps,
             .executor = world.executor,
             .rearrange = [&world, &tied](const SlotMove& move) {
@@ -161,13 +162,13 @@ void uniteReports(WorldState& world) {
 
 }  // namespace
 
-void settleShared(WorldState& world, const DetectionRange& range, bool flown) {
+void settleShared(WorldState& world, const DetectionRange& range, double speed, bool flown) {
     if (world.shared == nullptr) return;
     StepData& data = world.data;
     SharedBodies& shared = *world.shared;
     const bool was_whole = shared.isWhole();
     std::vector<BodyPair> tied = tiedBodies(world);
-    DealtOut dealt = dealtOut(world, tied, range);
+    DealtOut dealt = dealtOut(world, tied, range, speed);
     const std::vector<BodyIndex> named = was_whole ? namedBodies(world) : std::vector<BodyIndex>();
     dealt.named = named;
     if (flown && world.settings.integration.exact_flight) dealt.begun = &data.before.position;
@@ -194,7 +195,7 @@ void gatherShared(WorldState& world) {
     std::vector<BodyPair> tied;
     const DetectionRange range;
     const bool was_dealing = isDealing(world);
-    world.shared->gather(dealtOut(world, tied, range));
+    world.shared->gather(dealtOut(world, tied, range, 0));
     world.dealt_extents = {};
     // While bodies are dealt out no step was made yet.
     if (!was_dealing) {

@@ -8,8 +8,9 @@
 namespace cairn {
 
 /// Brings the bodies of a shared world to the ranks that will find their contacts; does nothing in other worlds.
-/// @param range of the detection that follows @param flown whether bodies have moved in this step
-void settleShared(WorldState& world, const DetectionRange& range, bool flown);
+/// @param range of the detection that follows @param speed no point of a body here is faster [m/s]; without foresight
+///        nobody asks @param flown whether bodies have moved in this step
+void settleShared(WorldState& world, const DetectionRange& range, double speed, bool flown);
 
 /// Makes a shared world whole, on all ranks: bodies, contacts, batches, statistics and faults.
 void gatherShared(WorldState& world);

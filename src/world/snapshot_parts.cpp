@@ -33,10 +33,8 @@ void placeFields(Stream& stream, AnyPlace& place) {
 // What some bodies have of a field.
 template <PlainBytes T>
 void pickedSlots(ByteWriter& out, const FieldArray<T>& values, std::span<const BodyIndex> slots) {
-    std::vector<T> picked;
-    picked.reserve(slots.size());
-    for (const BodyIndex i : slots) picked.push_back(values[i]);
-    out.putArray(std::span<const T>(picked));
+    out.put(std::uint64_t{slots.size()});
+    for (const BodyIndex i : slots) out.put(values[i]);
 }
 template <PlainBytes T>
 void pickedSlots(ByteReader& in, FieldArray<T>& values, std::span<const BodyIndex> slots) {

@@ -62,9 +62,8 @@ PairsInput pairsInput(WorldState& world, const DetectionRange& range) {
     return {world.bodies, world.materials, world.broad_phase, world.data.excluded, range, world.executor};
 }
 
-/// The highest speed that an impact of two bodies gives: that of the fastest point there is, to a light body that
-/// bounces, twice [m/s].
-double fastestAfterImpact(WorldState& world) {
+/// The speed of the fastest point there is [m/s].
+double fastestNow(WorldState& world) {
     const BodyStorage& b = world.bodies;
     std::vector<double>& fastest = world.data.fastest_of;
     fastest.assign(static_cast<std::size_t>(world.executor.threads()), 0.0);
@@ -76,14 +75,16 @@ double fastestAfterImpact(WorldState& world) {
             most = std::max(most, b.v[i].norm() + turning);
         }
     });
-    return 2 * *std::ranges::max_element(fastest);
+    return *std::ranges::max_element(fastest);
 }
 
 /// Begins the detections of a step: what the last one left becomes what the next contacts begin with.
 /// @param flown whether bodies have moved in this step
 void beginDetection(WorldState& world, const DetectionRange& range, bool flown) {
-    if (range.foresight.time > 0) world.data.fastest = fastestAfterImpact(world);
-    settleShared(world, range, flown);
+    const double speed = range.foresight.time > 0 ? fastestNow(world) : 0;
+    // An impact of two bodies gives twice that, to a light body that bounces.
+    if (range.foresight.time > 0) world.data.fastest = 2 * speed;
+    settleShared(world, range, speed, flown);
     world.data.pairs.beginStep(world.bodies, world.data.generation);
     beginContacts(world.data.contacts, warmStart(world), world.executor);
 }
@@ -290,7 +291,7 @@ void stepWorld(WorldState& world) {
     timed(world, Stage::detection, [&] {
         const DetectionRange range = rangeOf(world);
         if (launched) {
-            settleShared(world, range, true);
+            settleShared(world, range, world.shared != nullptr ? fastestNow(world) : 0, true);
             beginContacts(world.data.contacts, warmStart(world), world.executor);
         } else {
             beginDetection(world, range, true);

@@ -275,7 +275,6 @@ FreeAxis& ownAxisOf(Joint& joint, std::string_view what) {
 }  // namespace
 
 void World::setJointMotor(JointId id, const JointMotor& motor) {
-    requireWhole(*state_, "World::setJointMotor");
     Joint& joint = jointOf(state_->joints, id);
     FreeAxis& axis = ownAxisOf(joint, "motor");
     requireMotor(motor);
@@ -286,7 +285,6 @@ void World::setJointMotor(JointId id, const JointMotor& motor) {
 }
 
 void World::setJointLimits(JointId id, std::optional<double> lower, std::optional<double> upper) {
-    requireWhole(*state_, "World::setJointLimits");
     Joint& joint = jointOf(state_->joints, id);
     FreeAxis& axis = ownAxisOf(joint, "limits");
     requireLimits(lower, upper, axis.along, entryOf(joint.kind));
@@ -296,7 +294,6 @@ void World::setJointLimits(JointId id, std::optional<double> lower, std::optiona
 }
 
 void World::setJointServo(JointId id, const JointServo& servo) {
-    requireWhole(*state_, "World::setJointServo");
     Joint& joint = jointOf(state_->joints, id);
     FreeAxis& axis = ownAxisOf(joint, "servo");
     if (axis.hasMotor()) throw InputError("the joint has a motor, so it takes no servo");
@@ -305,7 +302,6 @@ void World::setJointServo(JointId id, const JointServo& servo) {
 }
 
 void World::setJointAxis(JointId id, std::size_t index, const JointAxis& axis) {
-    requireWhole(*state_, "World::setJointAxis");
     Joint& joint = jointOf(state_->joints, id);
     const JointKindEntry& kind = entryOf(joint.kind);
     if (index >= joint.free.size()) {

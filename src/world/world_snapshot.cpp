@@ -48,12 +48,14 @@ void World::saveTo(std::vector<std::byte>& buffer) const {
 }
 
 std::vector<std::byte> World::savePart() const {
-    if (!isDivided()) throw InputError("World::savePart is for a world that is divided; use World::save");
     std::vector<std::byte> part;
-    ByteWriter out(part, FrameKind::world_part);
-    cairn::savePart(*state_, out);
-    out.finish();
+    savePart([&](std::span<const std::byte> page) { part.insert(part.end(), page.begin(), page.end()); });
     return part;
+}
+
+void World::savePart(const std::function<void(std::span<const std::byte>)>& append) const {
+    if (!isDivided()) throw InputError("World::savePart is for a world that is divided; use World::save");
+    writeFrame(FrameKind::world_part, append, [&](ByteWriter& out) { cairn::savePart(*state_, out); });
 }
 
 std::vector<std::byte> World::saveCommon() const {

@@ -47,8 +47,9 @@ void writeVectors(BodyStorage& bodies, std::span<const BodyId> ids, std::span<co
     }
     const BodyState state = bodies.state();
     for (std::size_t k = 0; k < ids.size(); ++k) {
-        write(ids[k].index, values[k]);
-        state.wake(ids[k].index, WakeReason::changed);
+        const BodyIndex i = bodies.slotOf(ids[k].index);
+        write(i, values[k]);
+        state.wake(i, WakeReason::changed);
     }
 }
 
@@ -209,24 +210,20 @@ void World::applyAngularImpulses(std::span<const BodyId> ids, std::span<const Ve
 }
 
 void World::setConstantForce(BodyId id, const Vec3& force) {
-    requireWhole(*state_, "World::setConstantForce");
     setConstantForces({&id, 1}, {&force, 1});
 }
 
 void World::setConstantForces(std::span<const BodyId> ids, std::span<const Vec3> forces) {
-    requireWhole(*state_, "World::setConstantForces");
     BodyStorage& b = state_->bodies;
     state_->lasting.reset();
     writeVectors(b, ids, forces, written_force, [&](BodyIndex i, const Vec3& value) { b.constant_force[i] = value; });
 }
 
 void World::setConstantTorque(BodyId id, const Vec3& torque) {
-    requireWhole(*state_, "World::setConstantTorque");
     setConstantTorques({&id, 1}, {&torque, 1});
 }
 
 void World::setConstantTorques(std::span<const BodyId> ids, std::span<const Vec3> torques) {
-    requireWhole(*state_, "World::setConstantTorques");
     BodyStorage& b = state_->bodies;
     state_->lasting.reset();
     writeVectors(b, ids, torques, written_torque,

@@ -121,6 +121,15 @@ TEST(DealtWorld, RefusesToDealOutWhatOthersWouldHaveToKnow) {
     });
 }
 
+TEST(DealtWorld, LetsBodiesMeetAndPartAcrossCutsAllTheTime) {
+    // Most steps bring some of a gas to another rank, and most of these need no comparison after that.
+    const SceneSource gas = builtInSource("gas:1500");
+    for (const int ranks : {2, 4, 7}) expectSameSteps(gas, 200, {}, ranks);
+    expectSameSteps(gas, 120, {.kind = PartitionKind::x, .rebalance_every = 50}, 4);
+    // Piles apart from each other, none of which lies in the way of a cut.
+    expectSameSteps(builtInSource("pits:9:25"), 150, {}, 4);
+}
+
 TEST(DealtWorld, DealsOutTheBodiesOfScenes) {
     for (const char* name : {"stacks5", "heap:60"}) {
         const Scene scene = builtInScene(name);

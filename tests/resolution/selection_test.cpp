@@ -102,6 +102,34 @@ TEST(Selection, AContactOfTwoAwakeBodiesIsTheNextReference) {
     EXPECT_NEAR(pile.contacts[0].impulse.x(), -2, 1e-9);
 }
 
+TEST(Selection, WhatIsNotPassedStaysAsItIs) {
+    // Two rows, of which only the second one is resolved, as around struck bodies.
+    const Executor executor;
+    for (const bool sleeps : {false, true}) {
+        Pile pile = row(3);
+        const BodyIndex first = pile.addSphere(Vec3(0, 9, 0));
+        const BodyIndex second = pile.addSphere(Vec3(1, 9, 0));
+        pile.asleep[second] = sleeps ? 1 : 0;
+        pile.touch(first, second, Vec3(0.5, 9, 0), -Vec3::UnitX());
+        for (Contact& contact : pile.contacts) {
+            contact.impulse = -Vec3::UnitX();
+            contact.last_impulse = -2 * Vec3::UnitX();
+            contact.reference_impulse = -3 * Vec3::UnitX();
+        }
+        const std::vector<BodyIndex> bodies{first, second};
+        const std::vector<std::uint32_t> contacts{2};
+        const BatchView batch{bodies, contacts, {}};
+        Selection selection;
+        selection.begin({{&batch, 1}, pile.contacts, pile.state(), Selecting::awake_parts, wake_speed, executor});
+        selection.finish();
+        for (const std::size_t i : {0, 1}) {
+            EXPECT_EQ(pile.contacts[i].impulse.x(), -1);
+            EXPECT_EQ(pile.contacts[i].reference_impulse.x(), -3);
+        }
+        EXPECT_EQ(pile.contacts[2].reference_impulse.x(), -1);
+    }
+}
+
 TEST(Selection, TheImpulseQueueWakesWhatItTouches) {
     Pile pile = row(3);
     pile.v[0] = Vec3(0.003, 0, 0);

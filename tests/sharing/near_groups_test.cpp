@@ -7,38 +7,33 @@
 namespace cairn {
 namespace {
 
-/// Bodies in a row, in boxes with their numbers.
+/// Bodies of a row, in boxes with their numbers.
 struct Row {
-    std::vector<BodyKind> kind;
-    std::vector<Bounds> cover;
+    std::vector<CoveredBody> bodies;  ///< of this rank
+    std::vector<CoveredBody> others;
     std::vector<Vec3> position;
-    std::vector<Contact> contacts;
-    std::vector<BodyPair> tied;
-    std::vector<BodyIndex> home;  ///< of part of them; empty = all are there
+    std::vector<BodyPair> joined;
     HashGrids search;
     Executor executor;
     NearGroups groups;
 
-    /// @param places along x; covers reach 0.6 m
-    explicit Row(const std::vector<double>& places) {
-        for (const double x : places) {
-            kind.push_back(BodyKind::dynamic);
-            position.emplace_back(x, 0, 0);
-            cover.push_back({Vec3(x - 0.6, -1, -1), Vec3(x + 0.6, 1, 1)});
+    /// @param places along x; covers reach 0.6 m @param owners of the bodies; empty = all are of this rank
+    explicit Row(const std::vector<double>& places, const std::vector<int>& owners = {}, int rank = 0) {
+        for (BodyIndex i = 0; i < places.size(); ++i) {
+            const double x = places[i];
+            const CoveredBody body{i, {Vec3(x - 0.6, -1, -1), Vec3(x + 0.6, 1, 1)}};
+            const bool is_own = owners.empty() || owners[i] == rank;
+            (is_own ? bodies : others).push_back(body);
+            if (is_own) position.emplace_back(x, 0, 0);
         }
     }
-    NearGroupsInput input() { return {kind, cover, position, contacts, tied, search, home}; }
-    /// Leaves to this rank the bodies whose owner it is.
-    void keep(const std::vector<int>& owners, int rank) {
-        for (std::size_t i = 0; i < kind.size(); ++i) {
-            if (owners[i] != rank) kind[i] = BodyKind::hole;
-        }
-    }
+    void find() { groups.find({bodies, position, joined, search, executor}); }
+    void meet() { groups.meet(bodies, others, search, executor); }
 };
 
 TEST(NearGroups, AreOfBodiesWhoseCoversOverlap) {
     Row row({0, 1, 2, 5, 6, 9});
-    row.groups.find(row.input(), row.executor);
+    row.find();
     for (const BodyIndex i : {0, 1, 2}) EXPECT_EQ(row.groups.groupOf(i), 0U);
     for (const BodyIndex i : {3, 4}) EXPECT_EQ(row.groups.groupOf(i), 3U);
     EXPECT_EQ(row.groups.groupOf(5), 5U);
@@ -46,23 +41,23 @@ TEST(NearGroups, AreOfBodiesWhoseCoversOverlap) {
     EXPECT_EQ(row.groups.middleOf(3), Vec3(5.5, 0, 0));
 }
 
-TEST(NearGroups, KeepWhatTouchedOrIsTied) {
+TEST(NearGroups, KeepWhatIsJoined) {
     Row row({0, 3, 6, 9});
-    row.contacts.push_back({.a = 0, .b = 2});
-    row.tied.push_back({1, 3});
-    row.groups.find(row.input(), row.executor);
+    row.joined = {{0, 2}, {1, 3}};
+    row.find();
     EXPECT_EQ(row.groups.groupOf(2), 0U);
     EXPECT_EQ(row.groups.groupOf(3), 1U);
 }
 
-TEST(NearGroups, FixedBodiesConnectNobody) {
-    Row row({0, 1, 2});
-    row.kind[1] = BodyKind::fixed;
-    row.contacts.push_back({.a = 0, .b = 1});
-    row.contacts.push_back({.a = 1, .b = 2});
-    row.groups.find(row.input(), row.executor);
-    EXPECT_EQ(row.groups.groupOf(0), 0U);
-    EXPECT_EQ(row.groups.groupOf(2), 2U);
+TEST(NearGroups, MeetWhereBodiesOfTwoRanksDo) {
+    Row row({0, 1, 2, 5, 6, 7, 9}, {0, 0, 1, 0, 1, 1, 1});
+    row.meet();
+    // The second and the third of this rank.
+    EXPECT_EQ(std::vector(row.groups.met().begin(), row.groups.met().end()), (std::vector<std::uint32_t>{1, 2}));
+    // The boxes of the ranks overlap, the bodies do not.
+    Row apart({0, 1, 3, 4, 7, 8}, {0, 0, 1, 1, 0, 0});
+    apart.meet();
+    EXPECT_TRUE(apart.groups.met().empty());
 }
 
 TEST(NearGroups, ReachOverRanks) {
@@ -70,66 +65,28 @@ TEST(NearGroups, ReachOverRanks) {
     const std::vector<double> places{4, 0, 1, 2, 3, 10, 11, 20, 21};
     const std::vector<int> owners{0, 1, 2, 0, 1, 2, 2, 1, 0};
     runRanks(3, [&](Ranks& ranks) {
-        Row row(places);
-        row.keep(owners, ranks.rank());
-        EXPECT_TRUE(row.groups.meetOthers(row.input(), row.executor, ranks));
-        row.groups.findAcross(row.input(), row.executor, ranks);
-        for (BodyIndex i = 0; i < places.size(); ++i) {
-            if (owners[i] != ranks.rank()) continue;
-            const BodyIndex group = row.groups.groupOf(i);
-            EXPECT_EQ(group, i < 5 ? 0U : i < 7 ? 5U : 7U) << i;
+        Row row(places, owners, ranks.rank());
+        row.meet();
+        row.find();
+        row.groups.joinAcross(ranks);
+        for (BodyIndex n = 0; n < row.bodies.size(); ++n) {
+            const BodyIndex i = row.bodies[n].home;
+            const BodyIndex group = row.groups.groupOf(n);
+            EXPECT_EQ(row.groups.nameOf(group), i < 5 ? 0U : i < 7 ? 5U : 7U) << i;
             EXPECT_EQ(row.groups.middleOf(group).x(), i < 5 ? 2 : i < 7 ? 10.5 : 20.5) << i;
-        }
-    });
-}
-
-TEST(NearGroups, ReachOverRanksThatHaveSlotsOnlyOfTheirOwn) {
-    const std::vector<double> places{4, 0, 1, 2, 3, 10, 11, 20, 21};
-    const std::vector<int> owners{0, 1, 2, 0, 1, 2, 2, 1, 0};
-    runRanks(3, [&](Ranks& ranks) {
-        std::vector<double> own;
-        std::vector<BodyIndex> home;
-        for (BodyIndex i = 0; i < places.size(); ++i) {
-            if (owners[i] != ranks.rank()) continue;
-            own.push_back(places[i]);
-            home.push_back(i);
-        }
-        Row row(own);
-        row.home = home;
-        EXPECT_TRUE(row.groups.meetOthers(row.input(), row.executor, ranks));
-        row.groups.findAcross(row.input(), row.executor, ranks);
-        for (BodyIndex i = 0; i < own.size(); ++i) {
-            const BodyIndex group = row.groups.groupOf(i);
-            EXPECT_EQ(row.groups.nameOf(group), home[i] < 5 ? 0U : home[i] < 7 ? 5U : 7U) << i;
-            EXPECT_EQ(row.groups.middleOf(group).x(), home[i] < 5 ? 2 : home[i] < 7 ? 10.5 : 20.5) << i;
-        }
-    });
-}
-
-TEST(NearGroups, TellWhereNoBodiesOfTwoRanksMeet) {
-    // The boxes of the ranks overlap, the bodies do not.
-    const std::vector<double> places{0, 1, 3, 4, 7, 8};
-    const std::vector<int> owners{0, 0, 1, 1, 0, 0};
-    runRanks(2, [&](Ranks& ranks) {
-        Row row(places);
-        row.keep(owners, ranks.rank());
-        EXPECT_FALSE(row.groups.meetOthers(row.input(), row.executor, ranks));
-        row.groups.findAcross(row.input(), row.executor, ranks);
-        for (BodyIndex i = 0; i < places.size(); ++i) {
-            if (owners[i] != ranks.rank()) continue;
-            EXPECT_EQ(row.groups.groupOf(i), i / 2 * 2);
         }
     });
 }
 
 TEST(NearGroups, AreFoundByRanksWithoutBodies) {
     runRanks(3, [&](Ranks& ranks) {
-        Row row({0, 1});
-        row.keep({0, 1}, ranks.rank());
-        EXPECT_TRUE(row.groups.meetOthers(row.input(), row.executor, ranks));
-        row.groups.findAcross(row.input(), row.executor, ranks);
-        if (ranks.rank() != 1) return;
-        EXPECT_EQ(row.groups.groupOf(1), 0U);
+        Row row({0, 1}, {0, 1}, ranks.rank());
+        row.meet();
+        row.find();
+        row.groups.joinAcross(ranks);
+        if (ranks.rank() == 2) return;
+        EXPECT_EQ(row.groups.nameOf(row.groups.groupOf(0)), 0U);
+        EXPECT_EQ(row.groups.middleOf(row.groups.groupOf(0)).x(), 0.5);
     });
 }
 
