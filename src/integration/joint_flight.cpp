@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "math/rotation.h"
 
@@ -124,12 +123,6 @@ void JointFlight::saveKicks(std::span<const Joint> joints, const JointGroups& gr
 
 void JointFlight::begin(std::span<Joint> joints, const JointGroups& groups, const BodyStorage& bodies,
                         const Motion& motion) {
-    for (Joint& joint : joints) {
-        joint.last_impulse = std::exchange(joint.impulse, Vec3::Zero());
-        joint.last_angular_impulse = std::exchange(joint.angular_impulse, Vec3::Zero());
-        joint.fixed_impulse.setZero();
-        joint.fixed_angular_impulse.setZero();
-    }
     if (groups.size() == 0) return;
     saveRotors(joints, bodies);
     pushed_.assign(bodies.slots(), 0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "activity/sleeping.h"
 #include "joints/joint_kinds.h"
@@ -65,6 +66,12 @@ void removeBroken(WorldState& world, std::uint32_t slot) {
 void prepareJoints(WorldState& world) {
     StepData& data = world.data;
     data.broken.clear();
+    for (Joint& joint : world.joints) {
+        joint.last_impulse = std::exchange(joint.impulse, Vec3::Zero());
+        joint.last_angular_impulse = std::exchange(joint.angular_impulse, Vec3::Zero());
+        joint.fixed_impulse.setZero();
+        joint.fixed_angular_impulse.setZero();
+    }
     placeCouplings(world);
     world.joint_grouping.build(world.joints, world.bodies.kind, data.joint_groups);
     listExcluded(world, data.excluded);
@@ -112,6 +119,17 @@ void buildJointBlocks(WorldState& world) {
         data.views[i].joints =
             std::span(data.joint_blocks).subspan(data.joint_begin[i], data.joint_begin[i + 1] - data.joint_begin[i]);
     }
+}
+
+void keepImpactsOnly(WorldState& world) {
+    for (JointBlock& block : world.data.joint_blocks) {
+        std::erase_if(block.bound, [](const BoundRow& bound) { return bound.is_motor; });
+        block.bounds = static_cast<std::uint32_t>(block.bound.size());
+    }
+}
+
+void addJointImpulses(WorldState& world, std::span<const JointBlock> blocks) {
+    for (const JointBlock& block : blocks) reportImpulses(block, world.bodies, world.joints[block.joint]);
 }
 
 void countJointSupports(const WorldState& world, std::span<std::int32_t> supports) {

@@ -5,7 +5,8 @@
 
 namespace cairn {
 
-/// Finds the groups of joints and the pairs that may not touch, and wakes groups of which a part is awake.
+/// Begins the step of all joints: clears their impulses, finds their groups and the pairs that may not touch, and wakes
+/// groups of which a part is awake.
 void prepareJoints(WorldState& world);
 
 /// Wakes the sleeping bodies of every group of which a body is awake: they sleep and wake together.
@@ -13,6 +14,12 @@ void wakeJointed(WorldState& world);
 
 /// Rows of all joints where their bodies are now, batch after batch, and which of them are whose.
 void buildJointBlocks(WorldState& world);
+
+/// Leaves what joints keep at any time, and limits: what acts along free axes acts later in the step.
+void keepImpactsOnly(WorldState& world);
+
+/// Adds what the rows of some joints received in a resolution to the impulses of the step.
+void addJointImpulses(WorldState& world, std::span<const JointBlock> blocks);
 
 /// A joint supports both its bodies like a contact in the direction of gravity.
 void countJointSupports(const WorldState& world, std::span<std::int32_t> supports);
