@@ -74,6 +74,7 @@ struct Joint {
     std::uint32_t first_axis = 0;              ///< index in its free axes
     std::uint32_t second_axis = 0;             ///< index in its free axes
     double ratio = 1;                          ///< of couplings: position of the second per that of the first
+    double coupled_impulse = 0;                ///< of couplings: on the second one's axis in the step [N·s or N·m·s]
     double offset = 0;                         ///< of couplings: position of the second where that of the first is zero
     std::uint32_t redundant = 0;               ///< rows of the last step that followed from others
     Vec3 impulse = Vec3::Zero();               ///< on A at its anchor in the last step [N·s, W]
