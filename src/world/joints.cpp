@@ -80,6 +80,8 @@ void prepareJoints(WorldState& world) {
         joint.last_impulse = std::exchange(joint.impulse, Vec3::Zero());
         joint.last_angular_impulse = std::exchange(joint.angular_impulse, Vec3::Zero());
         joint.coupled_impulse = 0;
+        joint.launch_impulse.setZero();
+        joint.launch_angular_impulse.setZero();
         joint.fixed_impulse.setZero();
         joint.fixed_angular_impulse.setZero();
     }
@@ -141,6 +143,15 @@ void keepImpactsOnly(WorldState& world) {
 
 void addJointImpulses(WorldState& world, std::span<const JointBlock> blocks) {
     for (const JointBlock& block : blocks) reportImpulses(block, world.bodies, world.joints[block.joint]);
+}
+
+void endLaunch(WorldState& world) {
+    for (Joint& joint : world.joints) {
+        joint.launch_impulse = joint.impulse;
+        joint.launch_angular_impulse = joint.angular_impulse;
+        joint.fixed_impulse.setZero();
+        joint.fixed_angular_impulse.setZero();
+    }
 }
 
 void countJointSupports(const WorldState& world, std::span<std::int32_t> supports) {

@@ -113,6 +113,7 @@ bool grantLaunched(WorldState& world) {
     bodies.time_step = world.settings.timeStep();
     resolveLaunched(world, bodies, pairsInput(world, range));
     measureIfAsked(world, Measured::resolution);
+    endLaunch(world);
     for (Contact& contact : world.data.contacts) {
         // The step's own contacts begin with what they had before.
         contact.impulse = contact.last_impulse;

@@ -224,6 +224,29 @@ TEST(ForeseenContacts, TheImpactOfAVelocityThatAUserGivesMayBreakAJoint) {
     }
 }
 
+TEST(ForeseenContacts, AccountsCloseWhereJointedBodiesAreLaunched) {
+    LaunchedPair pair(Vec3(45, 2, 3), Vec3(1, 0.2, 0.1), {.kind = JointKind::ball});
+    World& world = pair.scene.world;
+    world.addJoint({.kind = JointKind::ball, .a = pair.back, .anchor = Vec3(-0.6, 0.5, 0)});
+    const JointId pinion = world.addJoint({.kind = JointKind::generic,
+                                           .a = pair.front,
+                                           .axes = {{.along = JointAlong::turn_x},
+                                                    {.along = JointAlong::x},
+                                                    {.along = JointAlong::y},
+                                                    {.along = JointAlong::z}}});
+    world.addJoint({.kind = JointKind::rack, .first = pinion, .second = pinion, .second_axis = 1, .ratio = 0.1});
+    Settings settings = world.settings();
+    settings.diagnostics.diagnostics = true;
+    world.setSettings(settings);
+    for (int i = 0; i < 3; ++i) {
+        world.step();
+        const Diagnostics& d = world.statistics().diagnostics;
+        EXPECT_LT(d.momentum_error, 1e-9) << i;
+        EXPECT_LT(std::abs(d.energy_error), 1e-9 * (1 + d.energy)) << i;
+        for (const BodyId ball : {pair.front, pair.back}) EXPECT_LT(world.pose(ball).position.x(), -0.04);
+    }
+}
+
 /// A box that lands on an edge turns, and its other edge meets the floor in the same step.
 TEST(ForeseenContacts, TheSideThatAnImpactTurnsDownStopsAtTheFloor) {
     Scene scene;
