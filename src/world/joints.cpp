@@ -73,9 +73,7 @@ void removeBroken(WorldState& world, std::uint32_t slot) {
 
 }  // namespace
 
-void prepareJoints(WorldState& world) {
-    StepData& data = world.data;
-    data.broken.clear();
+void beginJointImpulses(WorldState& world) {
     for (Joint& joint : world.joints) {
         joint.last_impulse = std::exchange(joint.impulse, Vec3::Zero());
         joint.last_angular_impulse = std::exchange(joint.angular_impulse, Vec3::Zero());
@@ -85,6 +83,11 @@ void prepareJoints(WorldState& world) {
         joint.fixed_impulse.setZero();
         joint.fixed_angular_impulse.setZero();
     }
+}
+
+void prepareJoints(WorldState& world) {
+    StepData& data = world.data;
+    data.broken.clear();
     placeCouplings(world);
     world.joint_grouping.build(world.joints, world.bodies.kind, data.joint_groups);
     listExcluded(world, data.excluded);

@@ -5,8 +5,10 @@
 
 namespace cairn {
 
-/// Begins the step of all joints: clears their impulses, finds their groups and the pairs that may not touch, and wakes
-/// groups of which a part is awake.
+/// Begins a step: joints have received nothing in it so far.
+void beginJointImpulses(WorldState& world);
+
+/// Finds the groups of joints and the pairs that may not touch, and wakes groups of which a part is awake.
 void prepareJoints(WorldState& world);
 
 /// Wakes the sleeping bodies of every group of which a body is awake: they sleep and wake together.

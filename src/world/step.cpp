@@ -269,6 +269,7 @@ void stepWorld(WorldState& world) {
         // What user code did between the steps may have overflowed.
         fixNonFinite(world);
         wakeSpringEnds(world.springs, world.bodies);
+        beginJointImpulses(world);
         prepareJoints(world);
         measureIfAsked(world, Measured::begin);
         beginLaws(world);
