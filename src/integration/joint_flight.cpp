@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "joints/joint_kinds.h"
 #include "math/rotation.h"
 
 namespace cairn {
@@ -91,6 +92,22 @@ void saveRotors(std::span<Joint> joints, const BodyStorage& bodies) {
     }
 }
 
+/// Angles are known up to whole turns, and counted on from where they are expected. What turns slowly is expected where
+/// it is.
+void foreseeTurns(std::span<Joint> joints, const BodyStorage& bodies, double time_step) {
+    constexpr double slowly = 1;  // [rad] in a step
+    for (Joint& joint : joints) {
+        if (joint.free.empty() || !isActive(joint, bodies.kind)) continue;
+        const Vec3 other = joint.b == Joint::world ? Vec3(Vec3::Zero()) : Vec3(bodies.w[joint.b]);
+        if (!((bodies.w[joint.a] - other).norm() * time_step > slowly)) continue;
+        for (std::size_t i = 0; i < joint.free.size(); ++i) {
+            if (!isAngle(joint.free[i].along)) continue;
+            const JointMotion motion = motionOf(joint, i, poseOf(bodies, joint.a), poseOf(bodies, joint.b));
+            joint.free[i].position = motion.position + time_step * rateOf(motion.row, joint.a, joint.b, bodies);
+        }
+    }
+}
+
 }  // namespace
 
 bool JointFlight::isResting(const Contact& contact, const BodyStorage& bodies, const Motion& motion) {
@@ -142,6 +159,7 @@ void JointFlight::begin(std::span<Joint> joints, const JointGroups& groups, cons
         evaluateAll(of_group, joints, bodies, motion.time_step,
                     std::span(blocks_).subspan(groups.joint_begin[g], of_group.size()));
     }
+    foreseeTurns(joints, bodies, motion.time_step);
 }
 
 void JointFlight::finish(std::span<Joint> joints, const JointGroups& groups, BodyStorage& bodies,

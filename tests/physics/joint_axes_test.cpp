@@ -200,6 +200,27 @@ TEST(JointAxes, AHingeCountsItsTurnsAndStopsAfterAsManyAsItMay) {
     EXPECT_NEAR(bench.world.joint(hinge).position, stop - 100, 0.1);
 }
 
+/// Faster than half a turn in a step, where the nearest angle is another one.
+TEST(JointAxes, AHingeCountsTheTurnsOfAFastWheelAndItsGear) {
+    JointBench bench;
+    const BodyId fast = bench.add(Cylinder{0.02, 0.1}, 1, Vec3::Zero());
+    const BodyId slow = bench.add(Cylinder{0.2, 0.1}, 10, Vec3(1, 0, 0));
+    const JointId pinion = bench.world.addJoint({.kind = JointKind::hinge, .a = fast});
+    const JointId wheel = bench.world.addJoint({.kind = JointKind::hinge, .a = slow, .anchor = Vec3(1, 0, 0)});
+    const JointId gear =
+        bench.world.addJoint({.kind = JointKind::gear, .first = pinion, .second = wheel, .ratio = 0.001});
+    const double speed = 1.3 * 2 * std::numbers::pi / bench.step();
+    bench.world.setAngularVelocity(fast, Vec3(0, 0, speed));
+    bench.world.setAngularVelocity(slow, Vec3(0, 0, -0.001 * speed));
+    bench.run(0.5);
+    const World resumed = World::restore(bench.world.save());
+    EXPECT_EQ(resumed.joint(pinion).position, bench.world.joint(pinion).position);
+    bench.run(0.5);
+    EXPECT_NEAR(bench.world.joint(pinion).position, speed, 1e-9 * speed);
+    EXPECT_NEAR(bench.world.joint(wheel).position, -0.001 * speed, 1e-9 * speed);
+    EXPECT_LE(bench.world.joint(gear).error, 1e-9);
+}
+
 TEST(JointAxes, RunOnAfterASnapshotAsIfNothingHappened) {
     const auto make = [](JointBench& bench) {
         std::optional<BodyId> last;
