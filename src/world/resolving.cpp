@@ -133,7 +133,7 @@ void resolveLaunchedJoints(WorldState& world, BodyState& bodies) {
     }
     if (data.launched.empty()) return;
     std::ranges::sort(data.launched);
-    data.launched.erase(std::ranges::unique(data.launched).begin(), data.launched.end());
+    data.launched.erase(std::unique(data.launched.begin(), data.launched.end()), data.launched.end());
     std::erase_if(data.added, [&](std::uint32_t i) { return std::ranges::binary_search(data.launched, batch_of[i]); });
     buildJointBlocks(world);
     keepImpactsOnly(world);
