@@ -23,7 +23,8 @@ void keepImpactsOnly(WorldState& world);
 /// Adds what the rows of some joints received in a resolution to the impulses of the step.
 void addJointImpulses(WorldState& world, std::span<const JointBlock> blocks);
 
-/// To be called when the impacts before the flight are measured: what joints received there is not to be measured again.
+/// To be called when the impacts before the flight are measured: what joints received there is not to be measured
+/// again.
 void endLaunch(WorldState& world);
 
 /// A joint supports both its bodies like a contact in the direction of gravity.

@@ -177,7 +177,8 @@ TEST_F(CommandLine, infoTellsWhatWasMendedOfAMesh) {
         {"shape":{"type":"height_field","heights":[[0,0,0],[0,1,0]],"spacing":1},"material":"oak","fixed":true}]})");
     const Finished done = cairn({"info", "scene.json"});
     EXPECT_NE(done.out.find("1 × 2 triangles, "), std::string::npos) << done.out << done.error;
-    EXPECT_NE(done.out.find(" MB, 4 open edges, 1 without an area left out, 1 given twice left out, 1 of the vertices welded"),
+    EXPECT_NE(done.out.find(
+                  " MB, 4 open edges, 1 without an area left out, 1 given twice left out, 1 of the vertices welded"),
               std::string::npos)
         << done.out;
     EXPECT_NE(done.out.find("1 × 3 × 2 heights, 4 triangles, "), std::string::npos) << done.out;
