@@ -39,30 +39,55 @@ std::string describeBodies(const Scene& scene) {
     return text;
 }
 
-/// How well convex parts stand for concave solids; those that are told alike in one line, by their first bodies.
-std::string describeSolids(const Scene& scene) {
-    std::vector<std::pair<std::string, std::size_t>> solids;
+/// How well convex parts stand for a concave solid; empty for other shapes.
+std::string solidText(const Shape& shape) {
+    const auto* compound = std::get_if<Compound>(&shape);
+    if (compound == nullptr || !compound->solid) return "";
+    return fmt::format("{} parts, volume {:.6g} m³, error {:.2g} of it", compound->parts.size(),
+                       compound->solid->volume, volumeErrorOf(*compound));
+}
+
+/// How large a surface of triangles is, and what was mended of it; empty for other shapes.
+std::string surfaceText(const Shape& shape) {
+    constexpr double megabyte = 1e6;
+    if (const auto* field = std::get_if<HeightField>(&shape)) {
+        return fmt::format("{} × {} heights, {} triangles, {:.3g} MB", field->columns(), field->rows(),
+                           field->triangles().size(), static_cast<double>(field->bytes()) / megabyte);
+    }
+    const auto* mesh = std::get_if<Mesh>(&shape);
+    if (mesh == nullptr) return "";
+    const SurfaceRepairs& repairs = mesh->repairs();
+    std::string text = fmt::format("{} triangles, {:.3g} MB, {} open edges", mesh->triangles().size(),
+                                   static_cast<double>(mesh->bytes()) / megabyte, repairs.open_edges);
+    if (repairs.degenerate > 0) text += fmt::format(", {} without an area left out", repairs.degenerate);
+    if (repairs.duplicate > 0) text += fmt::format(", {} given twice left out", repairs.duplicate);
+    if (repairs.welded > 0) text += fmt::format(", {} of the vertices welded", repairs.welded);
+    return text;
+}
+
+/// A line for each text that bodies have, by the first of them, with their number.
+std::string describeAlike(const Scene& scene, std::string_view name, std::string (*textOf)(const Shape&)) {
+    std::vector<std::pair<std::string, std::size_t>> found;
     for (const SceneBody& body : scene.bodies) {
-        const auto* compound = std::get_if<Compound>(&body.shape);
-        if (compound == nullptr || !compound->solid) continue;
-        const std::string solid = fmt::format("{} parts, volume {:.6g} m³, error {:.2g} of it", compound->parts.size(),
-                                              compound->solid->volume, volumeErrorOf(*compound));
-        const auto same = std::ranges::find(solids, solid, &std::pair<std::string, std::size_t>::first);
-        if (same == solids.end()) {
-            solids.emplace_back(solid, 1);
+        const std::string text = textOf(body.shape);
+        if (text.empty()) continue;
+        const auto same = std::ranges::find(found, text, &std::pair<std::string, std::size_t>::first);
+        if (same == found.end()) {
+            found.emplace_back(text, 1);
         } else {
             ++same->second;
         }
     }
-    std::string text;
-    for (const auto& [solid, count] : solids) text += line("solid", fmt::format("{} × {}", count, solid));
-    return text;
+    std::string lines;
+    for (const auto& [text, count] : found) lines += line(name, fmt::format("{} × {}", count, text));
+    return lines;
 }
 
 std::string describeScene(const Scene& scene) {
     std::string text = line("scene", scene.name);
     text += line("bodies", describeBodies(scene));
-    text += describeSolids(scene);
+    text += describeAlike(scene, "solid", solidText);
+    text += describeAlike(scene, "surface", surfaceText);
     text += line("duration", fmt::format("{} s", scene.duration));
     text += line("gravity", fmt::format("{} {} {} m/s²{}", scene.gravity.x(), scene.gravity.y(), scene.gravity.z(),
                                         scene.gravity_law ? ", changes by a law" : ""));

@@ -99,13 +99,16 @@ struct JointDescription {
     /// turn_y, turn_z: the rotation vector): what acts along their free axes in this order, or none. Of generic joints:
     /// the free axes.
     std::vector<JointAxis> axes{};
-    double break_force = infinite;   ///< mean over a time step above which the joint breaks [N], > 0
-    double break_torque = infinite;  ///< of joints that pass torque: the same [N·m], > 0
-    bool collide = false;            ///< whether the two bodies may touch each other
-    JointId first{};                 ///< of gears, racks and mimics, which have no bodies of their own: a joint
-    JointId second{};                ///< and the joint that follows it; both go on as they are
-    std::size_t first_axis = 0;      ///< which free axis of the first
-    std::size_t second_axis = 0;     ///< and of the second
+    /// Mean over a time step above which the joint breaks [N], > 0; of racks and mimics: along a displacement of the
+    /// second joint.
+    double break_force = infinite;
+    /// Of joints that pass torque: the same [N·m], > 0; of gears and mimics: about an angle of the second joint.
+    double break_torque = infinite;
+    bool collide = false;         ///< whether the two bodies may touch each other
+    JointId first{};              ///< of gears, racks and mimics, which have no bodies of their own: a joint
+    JointId second{};             ///< and the joint that follows it; both go on as they are
+    std::size_t first_axis = 0;   ///< which free axis of the first
+    std::size_t second_axis = 0;  ///< and of the second
     /// Of gears: turns of the second per turn of the first, in the opposite sense (negative: the same sense); of racks:
     /// displacement per angle [m/rad], the pinion's radius; of mimics: position of the second per that of the first.
     double ratio = 1;

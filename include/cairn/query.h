@@ -86,11 +86,11 @@ struct NearBody {
 /// Which bodies a question is about: of all that are no sensors …
 struct QueryFilter {
     std::span<const BodyId> except{};   ///< not these; ids that are stale are no error
-    std::span<const GroupId> groups{};  ///< only those that are in one of these; empty = all
+    std::span<const GroupId> groups{};  ///< only those that are in one of these, which there must be; empty = all
 };
 
 // Every function below throws InputError for shapes out of range, for poses, rays and ways that are not finite or
-// farther than 1e9 m, and for a direction of length zero.
+// farther than 1e9 m, and for a direction of length zero; those of a world also for a group that it does not have.
 
 /// Where a ray meets a shape. @param pose of the shape in W
 std::optional<SurfaceHit> castRay(const Shape& shape, const Pose& pose, const Ray& ray);

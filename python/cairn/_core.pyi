@@ -912,10 +912,10 @@ class JointDescription(_Record):
         """What acts along the free axes of other joints; of generic ones which are free."""
     @property
     def break_force(self) -> float:
-        """Above which the joint breaks [N], > 0."""
+        """Above which the joint breaks [N], > 0; of couplings along a displacement of the second."""
     @property
     def break_torque(self) -> float:
-        """Above which it breaks [N·m], > 0."""
+        """Above which it breaks [N·m], > 0; of couplings about an angle of the second."""
     @property
     def collide(self) -> bool:
         """Whether the two bodies may touch each other."""

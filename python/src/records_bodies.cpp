@@ -227,8 +227,10 @@ void bindJoints(py::module_& module) {
         .field("cone", &JointDescription::cone, "Of balls: largest angle between the axes of A and B [rad], 0 to π.")
         .field("axes", &JointDescription::axes,
                "What acts along the free axes of other joints; of generic ones which are free.")
-        .field("break_force", &JointDescription::break_force, "Above which the joint breaks [N], > 0.")
-        .field("break_torque", &JointDescription::break_torque, "Above which it breaks [N·m], > 0.")
+        .field("break_force", &JointDescription::break_force,
+               "Above which the joint breaks [N], > 0; of couplings along a displacement of the second.")
+        .field("break_torque", &JointDescription::break_torque,
+               "Above which it breaks [N·m], > 0; of couplings about an angle of the second.")
         .field("collide", &JointDescription::collide, "Whether the two bodies may touch each other.")
         .field("first", &JointDescription::first, "Of gears, racks and mimics: a joint.")
         .field("second", &JointDescription::second, "The joint that follows it.")

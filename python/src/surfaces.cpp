@@ -10,8 +10,11 @@ namespace {
 using Indices = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 
 std::vector<TriangleCorners> trianglesFrom(const py::object& source) {
-    const auto array = Indices::ensure(source);
-    if (!array || array.ndim() != 2 || array.shape(1) != 3) {
+    // Fractions are not to be cut off.
+    const py::array given = py::array::ensure(source);
+    const bool whole = given && (given.dtype().kind() == 'i' || given.dtype().kind() == 'u');
+    const Indices array = whole ? Indices::ensure(given) : Indices();
+    if (!whole || array.ndim() != 2 || array.shape(1) != 3) {
         PyErr_Clear();
         throw py::type_error("triangles must be whole numbers of the shape (n, 3)");
     }
@@ -20,8 +23,11 @@ std::vector<TriangleCorners> trianglesFrom(const py::object& source) {
         TriangleCorners& corners = triangles.emplace_back();
         for (std::size_t k = 0; k < 3; ++k) {
             const std::int64_t index = array.at(i, static_cast<py::ssize_t>(k));
-            // What no index can be is refused as one beyond all vertices.
-            corners[k] = index >= 0 && index < INT64_C(0xffffffff) ? static_cast<std::uint32_t>(index) : UINT32_MAX;
+            if (index < 0 || index > INT64_C(0xffffffff)) {
+                throw InputError("triangle " + std::to_string(i) + " of a mesh has the vertex " +
+                                 std::to_string(index) + "; indices count from 0 and fit into 32 bits");
+            }
+            corners[k] = static_cast<std::uint32_t>(index);
         }
     }
     return triangles;

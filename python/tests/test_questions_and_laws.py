@@ -73,6 +73,8 @@ def test_groups_and_exceptions_let_bodies_through() -> None:
     assert pickle.loads(pickle.dumps(ghosts)) == ghosts != ground_group and len({ghosts, ground_group}) == 2
     with pytest.raises(cairn.InputError):
         world.set_groups(ghost, [cairn.GroupId(9)])
+    with pytest.raises(cairn.InputError, match="group 9 is unknown"):
+        world.cast_ray(cairn.Ray([0, 0, 1], [0, 0, -1]), groups=[cairn.GroupId(9)])
     for i in range(2, cairn.most_groups):
         world.add_group(str(i))
     with pytest.raises(cairn.InputError):

@@ -37,6 +37,10 @@ def test_bad_input_is_refused() -> None:
         cairn.Mesh(np.array([[0, 0, np.nan], [1, 0, 0], [0, 1, 0]]), [[0, 1, 2]])
     with pytest.raises(TypeError):
         cairn.Mesh(SQUARE, [0, 1, 2])
+    with pytest.raises(TypeError, match="whole numbers"):
+        cairn.Mesh(SQUARE, [[0, 1, 2.5]])
+    with pytest.raises(cairn.InputError, match="the vertex -1; indices count from 0"):
+        cairn.Mesh(SQUARE, [[0, 1, -1]])
     with pytest.raises(cairn.InputError, match="two rows"):
         cairn.HeightField([[1, 2]], [1, 1])
 

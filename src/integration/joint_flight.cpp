@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
+#include "joints/joint_kinds.h"
 #include "math/rotation.h"
 
 namespace cairn {
@@ -92,6 +92,22 @@ void saveRotors(std::span<Joint> joints, const BodyStorage& bodies) {
     }
 }
 
+/// Angles are known up to whole turns, and counted on from where they are expected. What turns slowly is expected where
+/// it is.
+void foreseeTurns(std::span<Joint> joints, const BodyStorage& bodies, double time_step) {
+    constexpr double slowly = 1;  // [rad] in a step
+    for (Joint& joint : joints) {
+        if (joint.free.empty() || !isActive(joint, bodies.kind)) continue;
+        const Vec3 other = joint.b == Joint::world ? Vec3(Vec3::Zero()) : Vec3(bodies.w[joint.b]);
+        if (!((bodies.w[joint.a] - other).norm() * time_step > slowly)) continue;
+        for (std::size_t i = 0; i < joint.free.size(); ++i) {
+            if (!isAngle(joint.free[i].along)) continue;
+            const JointMotion motion = motionOf(joint, i, poseOf(bodies, joint.a), poseOf(bodies, joint.b));
+            joint.free[i].position = motion.position + time_step * rateOf(motion.row, joint.a, joint.b, bodies);
+        }
+    }
+}
+
 }  // namespace
 
 bool JointFlight::isResting(const Contact& contact, const BodyStorage& bodies, const Motion& motion) {
@@ -124,12 +140,6 @@ void JointFlight::saveKicks(std::span<const Joint> joints, const JointGroups& gr
 
 void JointFlight::begin(std::span<Joint> joints, const JointGroups& groups, const BodyStorage& bodies,
                         const Motion& motion) {
-    for (Joint& joint : joints) {
-        joint.last_impulse = std::exchange(joint.impulse, Vec3::Zero());
-        joint.last_angular_impulse = std::exchange(joint.angular_impulse, Vec3::Zero());
-        joint.fixed_impulse.setZero();
-        joint.fixed_angular_impulse.setZero();
-    }
     if (groups.size() == 0) return;
     saveRotors(joints, bodies);
     pushed_.assign(bodies.slots(), 0);
@@ -149,6 +159,7 @@ void JointFlight::begin(std::span<Joint> joints, const JointGroups& groups, cons
         evaluateAll(of_group, joints, bodies, motion.time_step,
                     std::span(blocks_).subspan(groups.joint_begin[g], of_group.size()));
     }
+    foreseeTurns(joints, bodies, motion.time_step);
 }
 
 void JointFlight::finish(std::span<Joint> joints, const JointGroups& groups, BodyStorage& bodies,

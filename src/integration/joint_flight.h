@@ -33,7 +33,7 @@ class JointFlight {
         std::span<const Contact> contacts{};  ///< of the last step
     };
 
-    /// Notes where awake groups are before advancePositions(). Clears the impulses of all joints.
+    /// Notes where awake groups are before advancePositions().
     void begin(std::span<Joint> joints, const JointGroups& groups, const BodyStorage& bodies, const Motion& motion);
     /// Moves their bodies anew so that the joints hold, after advancePositions().
     void finish(std::span<Joint> joints, const JointGroups& groups, BodyStorage& bodies, const Motion& motion);

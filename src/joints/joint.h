@@ -74,12 +74,15 @@ struct Joint {
     std::uint32_t first_axis = 0;              ///< index in its free axes
     std::uint32_t second_axis = 0;             ///< index in its free axes
     double ratio = 1;                          ///< of couplings: position of the second per that of the first
+    double coupled_impulse = 0;                ///< of couplings: on the second one's axis in the step [N·s or N·m·s]
     double offset = 0;                         ///< of couplings: position of the second where that of the first is zero
     std::uint32_t redundant = 0;               ///< rows of the last step that followed from others
     Vec3 impulse = Vec3::Zero();               ///< on A at its anchor in the last step [N·s, W]
     Vec3 angular_impulse = Vec3::Zero();       ///< on A besides [N·m·s, W]
     Vec3 last_impulse = Vec3::Zero();          ///< that of the step before, during a step: sleepers go on with it
     Vec3 last_angular_impulse = Vec3::Zero();  ///< likewise
+    Vec3 launch_impulse = Vec3::Zero();        ///< of impulse: that of impacts before the flight [N·s, W]
+    Vec3 launch_angular_impulse = Vec3::Zero();  ///< likewise [N·m·s, W]
     Vec3 fixed_impulse = Vec3::Zero();  ///< of couplings: that bodies that cannot move received, and the world [N·s, W]
     Vec3 fixed_angular_impulse = Vec3::Zero();  ///< likewise, about the origin [N·m·s, W]
 };

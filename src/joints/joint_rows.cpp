@@ -132,6 +132,7 @@ void reportImpulses(const JointBlock& block, const BodyStorage& bodies, Joint& j
     if (!block.ends.empty()) {
         const RowEnd& end = block.ends.front();
         sum({end.linear, end.angular, {}}, block.impulse[0]);
+        joint.coupled_impulse += block.impulse[0];
         addToFixed(block, bodies, joint);
     }
     joint.impulse += linear;

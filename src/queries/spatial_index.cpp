@@ -7,13 +7,10 @@ namespace cairn {
 
 namespace {
 
-bool isAsked(const BodyStorage& bodies, BodyIndex body, const QueryFilter& filter) {
+/// @param groups of the filter, as bits; 0 = all
+bool isAsked(const BodyStorage& bodies, BodyIndex body, const QueryFilter& filter, std::uint64_t groups) {
     if (bodies.sensor[body] != 0) return false;
-    const auto isIn = [&](GroupId group) {
-        const auto index = static_cast<std::uint32_t>(group);
-        return index < most_groups && (bodies.groups[body] >> index & 1U) != 0;
-    };
-    if (!filter.groups.empty() && std::ranges::none_of(filter.groups, isIn)) return false;
+    if (groups != 0 && (bodies.groups[body] & groups) == 0) return false;
     return std::ranges::find(filter.except, bodies.idOf(body)) == filter.except.end();
 }
 
@@ -67,8 +64,9 @@ void SpatialIndex::update(const BodyStorage& bodies) {
 template <class Visit>
 void SpatialIndex::forEachAlong(const BodyStorage& bodies, const TreeRay& ray, const double& reach,
                                 const QueryFilter& filter, const Visit& visit) const {
+    const std::uint64_t groups = bodies.filter.maskOf(filter.groups);
     const auto ask = [&](BodyIndex body) {
-        if (isAsked(bodies, body, filter)) visit(body);
+        if (isAsked(bodies, body, filter, groups)) visit(body);
     };
     for (const BodyIndex body : unbounded_) ask(body);
     tree_.forEachAlong(ray, reach, [&](std::uint32_t item) { ask(bounded_[item]); });
@@ -77,8 +75,9 @@ void SpatialIndex::forEachAlong(const BodyStorage& bodies, const TreeRay& ray, c
 template <class Visit>
 void SpatialIndex::forEachNear(const BodyStorage& bodies, const Bounds& box, const QueryFilter& filter,
                                const Visit& visit) const {
+    const std::uint64_t groups = bodies.filter.maskOf(filter.groups);
     const auto ask = [&](BodyIndex body) {
-        if (isAsked(bodies, body, filter)) visit(body);
+        if (isAsked(bodies, body, filter, groups)) visit(body);
     };
     for (const BodyIndex body : unbounded_) ask(body);
     tree_.forEachOverlapping(box, [&](std::uint32_t item) { ask(bounded_[item]); });

@@ -6,13 +6,17 @@ namespace cairn {
 
 namespace {
 
+/// Part of the energy that sweeps which end early may add where a joint gives some: less than that is no reason to
+/// begin anew, and to weaken what holds the joint.
+constexpr double driven_rounding = 0.01;
+
 bool hasMotor(const JointBlock& joint) {
     return std::any_of(joint.bound.begin(), joint.bound.begin() + joint.bounds,
                        [](const BoundRow& bound) { return bound.is_motor; });
 }
 
-bool isDriven(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
-    return std::ranges::any_of(batch.joints, hasMotor) || !hasStillSupports(batch, contacts, bodies);
+double rateOf(const JointRow& row, const BodyMotion& a, const BodyMotion& b) {
+    return row.linear.dot(a.v - b.v) + row.angular_a.dot(a.w) + row.angular_b.dot(b.w);
 }
 
 bool hasHistory(const BatchView& batch, std::span<const Contact> contacts) {
@@ -22,16 +26,18 @@ bool hasHistory(const BatchView& batch, std::span<const Contact> contacts) {
 }  // namespace
 
 void EnergyGuard::begin(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
-    watches_ = !isDriven(batch, contacts, bodies);
+    watches_ = hasStillSupports(batch, contacts, bodies);
+    driven_ = watches_ && std::ranges::any_of(batch.joints, hasMotor);
     if (watches_) saveMotion(batch.bodies, bodies, before_);
 }
 
 bool EnergyGuard::refuses(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies) {
     if (!watches_) return false;
     const EnergyGain gain = gainOf(batch, bodies);
-    if (!isAboveRounding(gain, batch, bodies)) return false;
+    const double given = givenByJoints(batch, bodies);
+    if (!isAboveRounding(gain, given, batch, bodies)) return false;
     if (!hasHistory(batch, contacts)) {
-        keepPart(gain.largestPart(0), batch, contacts, bodies);
+        keepPart(gain.largestPart(given), batch, contacts, bodies);
         return false;
     }
     keepPart(0, batch, contacts, bodies);
@@ -41,7 +47,41 @@ bool EnergyGuard::refuses(const BatchView& batch, std::span<Contact> contacts, c
 
 void EnergyGuard::bound(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies) const {
     const EnergyGain gain = gainOf(batch, bodies);
-    if (isAboveRounding(gain, batch, bodies)) keepPart(gain.largestPart(0), batch, contacts, bodies);
+    const double given = givenByJoints(batch, bodies);
+    if (isAboveRounding(gain, given, batch, bodies)) keepPart(gain.largestPart(given), batch, contacts, bodies);
+}
+
+/// The work of the rows of driven joints that gave any: impulse times the mean rate.
+double EnergyGuard::givenByJoints(const BatchView& batch, const BodyState& bodies) const {
+    if (!driven_) return 0;
+    double given = 0;
+    const auto placeOf = [&](BodyIndex body) {
+        return static_cast<std::size_t>(std::ranges::lower_bound(batch.bodies, body) - batch.bodies.begin());
+    };
+    // Twice the mean; bodies that are not among those of the batch cannot move.
+    const auto sumOfMotions = [&](BodyIndex body) -> BodyMotion {
+        const std::size_t n = placeOf(body);
+        if (n == batch.bodies.size() || batch.bodies[n] != body) return {Vec3::Zero(), Vec3::Zero()};
+        return {before_[n].v + bodies.v[body], before_[n].w + bodies.w[body]};
+    };
+    const auto add = [&](double impulse, double sum_of_rates) { given += std::max(0.0, 0.5 * impulse * sum_of_rates); };
+    for (const JointBlock& joint : batch.joints) {
+        const BodyMotion a = sumOfMotions(joint.a);
+        const BodyMotion b = sumOfMotions(joint.b);
+        for (std::uint32_t i = 0; i < joint.size && joint.ends.empty(); ++i) {
+            add(joint.impulse[i], rateOf(joint.rows[i], a, b));
+        }
+        double coupled = 0;
+        for (const RowEnd& end : joint.ends) {
+            const BodyMotion motion = sumOfMotions(end.body);
+            coupled += end.linear.dot(motion.v) + end.angular.dot(motion.w);
+        }
+        if (!joint.ends.empty()) add(joint.impulse[0], coupled);
+        for (const BoundRow& bound : std::span(joint.bound).first(joint.bounds)) {
+            add(bound.impulse, rateOf(bound.row, a, b));
+        }
+    }
+    return given;
 }
 
 EnergyGain EnergyGuard::gainOf(const BatchView& batch, const BodyState& bodies) const {
@@ -53,13 +93,14 @@ EnergyGain EnergyGuard::gainOf(const BatchView& batch, const BodyState& bodies) 
     return gain;
 }
 
-bool EnergyGuard::isAboveRounding(const EnergyGain& gain, const BatchView& batch, const BodyState& bodies) const {
-    if (!(gain.whole() > 0)) return false;
-    double energy = 0;
+bool EnergyGuard::isAboveRounding(const EnergyGain& gain, double given, const BatchView& batch,
+                                  const BodyState& bodies) const {
+    if (!(gain.whole() > given)) return false;
+    double energy = given;
     for (std::size_t n = 0; n < batch.bodies.size(); ++n) {
         energy += kineticEnergyOf(bodies, batch.bodies[n], before_[n]);
     }
-    return gain.whole() > energy_rounding * energy;
+    return gain.whole() - given > (driven_ ? driven_rounding : energy_rounding) * energy;
 }
 
 void EnergyGuard::keepPart(double part, const BatchView& batch, std::span<Contact> contacts,

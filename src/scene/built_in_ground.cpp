@@ -79,7 +79,8 @@ class MountainSide {
     Noise fine_;
 };
 
-/// A quake: swings whose strength grows and fades. @return places of the table over time
+/// A quake of up to about the acceleration of gravity: swings whose strength grows and fades. @return places of the
+/// table over time
 TableMotion quake() {
     TableMotion motion;
     constexpr double interval = 0.05;
@@ -88,8 +89,8 @@ TableMotion quake() {
         const double t = i * interval;
         const double envelope = std::sin(std::numbers::pi * t / length);
         const double phase = 2 * std::numbers::pi * t;
-        const double x = 0.05 * std::sin(1.1 * phase) + 0.01 * std::sin(2.9 * phase + 1);
-        const double y = 0.006 * std::sin(1.9 * phase + 2);
+        const double x = 0.1 * std::sin(1.1 * phase) + 0.02 * std::sin(2.9 * phase + 1);
+        const double y = 0.012 * std::sin(1.9 * phase + 2);
         motion.times.push_back(tidy(t));
         motion.displacements.push_back(tidy(Vec3(envelope * envelope * Vec3(x, y, 0))));
     }

@@ -29,7 +29,8 @@ constexpr std::array<std::string_view, 9> axis_keys = {"lower",  "upper",   "res
 /// The members that a kind has.
 void expectMembers(const JsonNode& node, const JointUses& uses) {
     if (uses.couples) {
-        return node.expectKeys({"type", "first", "second", "first_axis", "second_axis", "ratio"});
+        return node.expectKeys(
+            {"type", "first", "second", "first_axis", "second_axis", "ratio", "break_force", "break_torque"});
     }
     std::vector<std::string_view> keys = {"type", "a", "b", "anchor", "break_force", "collide"};
     const auto allow = [&](bool has, std::initializer_list<std::string_view> more) {
@@ -153,6 +154,11 @@ void readCoupling(const JsonNode& node, const SceneReading& reading, SceneJoint&
     joint.joint.ratio = node.required("ratio", "a number").number();
 }
 
+void readBreaking(const JsonNode& node, JointDescription& joint) {
+    if (const auto value = node.find("break_force")) joint.break_force = value->positive();
+    if (const auto value = node.find("break_torque")) joint.break_torque = value->positive();
+}
+
 SceneJoint readJoint(const JsonNode& node, const SceneReading& reading) {
     if (!node.value().is_object()) node.refuse("an object with the keys type, a and what the type needs");
     SceneJoint joint;
@@ -161,14 +167,14 @@ SceneJoint readJoint(const JsonNode& node, const SceneReading& reading) {
     expectMembers(node, uses);
     if (uses.couples) {
         readCoupling(node, reading, joint);
+        readBreaking(node, joint.joint);
         return joint;
     }
     readBodiesOf(node, reading, joint);
     if (const auto value = node.find("anchor")) joint.joint.anchor = value->vector();
     readLength(node, uses, joint.joint);
     readAxes(node, uses, joint.joint);
-    if (const auto value = node.find("break_force")) joint.joint.break_force = value->positive();
-    if (const auto value = node.find("break_torque")) joint.joint.break_torque = value->positive();
+    readBreaking(node, joint.joint);
     if (const auto value = node.find("collide")) joint.joint.collide = value->flag();
     return joint;
 }

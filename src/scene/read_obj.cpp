@@ -31,6 +31,7 @@ MeshContent readObj(const MeshText& text) {
         if (corners.size() < 3) lines.refuse("is a face of fewer than three vertices");
         content.addFace(corners);
     }
+    if (content.vertices.empty()) text.refuse("is no mesh: it has no vertex; give an STL, OBJ or PLY file");
     return content;
 }
 

@@ -72,21 +72,31 @@ Vec3 readScale(const JsonNode& node) {
     return node.value().is_array() ? node.vector() : Vec3::Constant(node.positive());
 }
 
+constexpr std::string_view triangles_form =
+    "an array of triangles, each of three indices of vertices, or of indices, three to a triangle";
+
+std::uint32_t readVertexIndex(const JsonNode& node) {
+    const Json& index = node.value();
+    if (!index.is_number_unsigned() || index.get<std::uint64_t>() > UINT32_MAX) {
+        node.refuse("the index of a vertex, a whole number from 0 on");
+    }
+    return index.get<std::uint32_t>();
+}
+
+/// Three indices together, or all in one row.
 std::vector<TriangleCorners> readTriangles(const JsonNode& list) {
-    list.expectArray("an array of triangles, each of three indices of vertices");
-    std::vector<TriangleCorners> triangles;
-    triangles.reserve(list.size());
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        const JsonNode triangle = list.element(i);
-        if (!triangle.value().is_array() || triangle.size() != 3) triangle.refuse("three indices of vertices");
-        TriangleCorners& corners = triangles.emplace_back();
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Json& index = triangle.element(k).value();
-            if (!index.is_number_unsigned() || index.get<std::uint64_t>() > UINT32_MAX) {
-                triangle.element(k).refuse("the index of a vertex, a whole number from 0 on");
-            }
-            corners[k] = index.get<std::uint32_t>();
+    list.expectArray(triangles_form);
+    const bool in_a_row = list.size() > 0 && !list.element(0).value().is_array();
+    if (in_a_row && list.size() % 3 != 0)
+        list.fail(fmt::format("has {} indices; give three to a triangle", list.size()));
+    std::vector<TriangleCorners> triangles(in_a_row ? list.size() / 3 : list.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const JsonNode triangle = in_a_row ? list : list.element(i);
+        if (!triangle.value().is_array() || (!in_a_row && triangle.size() != 3)) {
+            triangle.refuse("three indices of vertices");
         }
+        const std::size_t first = in_a_row ? 3 * i : 0;
+        for (std::size_t k = 0; k < 3; ++k) triangles[i][k] = readVertexIndex(triangle.element(first + k));
     }
     return triangles;
 }
@@ -106,7 +116,7 @@ Shape readTriangleShape(const JsonNode& node, SurfaceSides sides, const Use& use
     std::vector<Vec3> vertices;
     vertices.reserve(list.size());
     for (std::size_t i = 0; i < list.size(); ++i) vertices.push_back(list.element(i).vector());
-    auto triangles = readTriangles(node.required("indices", "an array of triangles, each of three indices"));
+    auto triangles = readTriangles(node.required("indices", triangles_form));
     return built(node, [&] { return use(Mesh(std::move(vertices), std::move(triangles), sides, scale)); });
 }
 

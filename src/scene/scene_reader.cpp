@@ -49,7 +49,8 @@ void readFrameMotion(const JsonNode& node, Scene& scene) {
     scene.frame_motion = readMotion(node);
     if (node.find("pivot")) node.fail("has a pivot; a frame does not turn, remove it");
     if (MotionCurve(*scene.frame_motion).turns())
-        node.fail("turns; the frame of a scene does not, remove spin or turns");
+        node.fail(
+            "turns; the frame of a scene does not: remove spin or turns, and give them to the ground as its motion");
 }
 
 JsonNode bodiesOf(const JsonNode& root) {

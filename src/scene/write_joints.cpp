@@ -86,6 +86,8 @@ std::string couplingText(const SceneJoint& scene_joint, Members out) {
     if (joint.first_axis != 0) out.add("first_axis", fmt::format("{}", joint.first_axis));
     if (joint.second_axis != 0) out.add("second_axis", fmt::format("{}", joint.second_axis));
     out.addNumber("ratio", joint.ratio);
+    out.addNumber("break_force", joint.break_force);
+    out.addNumber("break_torque", joint.break_torque);
     return out.end();
 }
 

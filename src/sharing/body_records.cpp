@@ -77,6 +77,9 @@ void forChangingMembers(AnyJoint& joint, const Visit& visit) {
     visit(joint.angular_impulse);
     visit(joint.last_impulse);
     visit(joint.last_angular_impulse);
+    visit(joint.coupled_impulse);
+    visit(joint.launch_impulse);
+    visit(joint.launch_angular_impulse);
     visit(joint.fixed_impulse);
     visit(joint.fixed_angular_impulse);
     for (auto& axis : joint.free) visit(axis.position);

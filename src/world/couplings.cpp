@@ -23,6 +23,10 @@ const Joint& coupledJoint(const WorldState& world, JointId id, std::string_view 
 
 void requireFreeAxis(const Joint& joint, std::size_t axis, std::string_view what) {
     if (axis < joint.free.size()) return;
+    if (entryOf(joint.kind).uses.couples) {
+        throw InputError(fmt::format("the {} joint of a coupling is a {} itself; couple the joints that it couples",
+                                     what, entryOf(joint.kind).title));
+    }
     throw InputError(fmt::format("the {} joint of a coupling, a {}, has no free axis {}; it has {}", what,
                                  entryOf(joint.kind).title, axis, joint.free.size()));
 }
@@ -38,14 +42,24 @@ void requireAngles(JointKind kind, bool first_turns, bool second_turns) {
 }
 
 void requireNothingElse(const JointDescription& d, std::string_view title) {
-    const bool breaks = std::isfinite(d.break_force) || std::isfinite(d.break_torque);
     if (!d.axes.empty() || d.lower || d.upper || d.motor || d.servo || d.spring || d.anchor_b || d.length || d.lead ||
-        d.cone || d.b || breaks || d.damping != 0 || d.friction != 0 || d.rotor_inertia != 0 || d.restitution != 0) {
-        throw InputError(
-            fmt::format("a {} has two joints, their axes and a ratio, nothing else; give the rest to the "
-                        "joints that it couples",
-                        title));
+        d.cone || d.b || d.damping != 0 || d.friction != 0 || d.rotor_inertia != 0 || d.restitution != 0) {
+        throw InputError(fmt::format(
+            "a {} has two joints, their axes, a ratio and what it breaks at, nothing else; give the rest to the "
+            "joints that it couples",
+            title));
     }
+}
+
+void requireBreaking(const JointDescription& d, std::string_view title, bool second_turns) {
+    const auto require = [&](double value, std::string_view what, bool fits, std::string_view other) {
+        if (!(value > 0)) throw InputError(fmt::format("{} of a {} is {}; it must be above 0", what, title, value));
+        if (fits || !std::isfinite(value)) return;
+        throw InputError(fmt::format("a {} whose second axis is {} breaks at a {}; leave {} out", title,
+                                     second_turns ? "an angle" : "a displacement", other, what));
+    };
+    require(d.break_force, "break_force", !second_turns, "break_torque");
+    require(d.break_torque, "break_torque", second_turns, "break_force");
 }
 
 BodyIndex movableOf(const Joint& joint, std::span<const BodyKind> kind) {
@@ -61,7 +75,9 @@ Joint couplingOf(const JointDescription& d, WorldState& world) {
     const Joint& second = coupledJoint(world, d.second, "second");
     requireFreeAxis(first, d.first_axis, "first");
     requireFreeAxis(second, d.second_axis, "second");
-    requireAngles(d.kind, isAngle(first.free[d.first_axis].along), isAngle(second.free[d.second_axis].along));
+    const bool second_turns = isAngle(second.free[d.second_axis].along);
+    requireAngles(d.kind, isAngle(first.free[d.first_axis].along), second_turns);
+    requireBreaking(d, kind.title, second_turns);
     if (d.first == d.second && d.first_axis == d.second_axis) {
         throw InputError(fmt::format("a {} couples an axis to itself; give two joints, or two axes", kind.title));
     }
@@ -82,6 +98,8 @@ Joint couplingOf(const JointDescription& d, WorldState& world) {
     joint.offset = positionOf(second, d.second_axis) - joint.ratio * positionOf(first, d.first_axis);
     joint.a = movableOf(first, world.bodies.kind);
     joint.b = movableOf(second, world.bodies.kind);
+    joint.break_force = d.break_force;
+    joint.break_torque = d.break_torque;
     joint.collide = true;
     return joint;
 }

@@ -162,8 +162,10 @@ void sumJoints(const WorldState& world, MeasuredSums& sums) {
         if (a_moves == isMovable(b.kind, joint.b)) continue;
         const double sign = a_moves ? 1 : -1;
         const Vec3 anchor = b.position[joint.a] + b.orientation[joint.a] * joint.anchor_a;
-        sums.fixed.add(sign * joint.impulse);
-        sums.fixed_angular.add(sign * (anchor.cross(joint.impulse) + joint.angular_impulse));
+        const Vec3 impulse = joint.impulse - joint.launch_impulse;
+        const Vec3 angular_impulse = joint.angular_impulse - joint.launch_angular_impulse;
+        sums.fixed.add(sign * impulse);
+        sums.fixed_angular.add(sign * (anchor.cross(impulse) + angular_impulse));
     }
 }
 

@@ -1,7 +1,9 @@
 #include "world/joints.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "activity/sleeping.h"
 #include "joints/joint_kinds.h"
@@ -45,6 +47,15 @@ void savePositions(const JointBlock& block, Joint& joint) {
     for (std::size_t i = 0; i < joint.free.size(); ++i) joint.free[i].position = block.position[i];
 }
 
+/// Whether a joint is loaded too much in this step.
+bool isOverloaded(const Joint& joint, double time_step) {
+    const double force = joint.break_force * time_step;
+    const double torque = joint.break_torque * time_step;
+    // A coupling has the one that its second axis is about.
+    if (entryOf(joint.kind).uses.couples) return std::abs(joint.coupled_impulse) > std::min(force, torque);
+    return joint.impulse.norm() > force || joint.angular_impulse.norm() > torque;
+}
+
 void removeBroken(WorldState& world, std::uint32_t slot) {
     Joint& joint = world.joints[slot];
     const BodyState bodies = world.bodies.state();
@@ -61,6 +72,18 @@ void removeBroken(WorldState& world, std::uint32_t slot) {
 }
 
 }  // namespace
+
+void beginJointImpulses(WorldState& world) {
+    for (Joint& joint : world.joints) {
+        joint.last_impulse = std::exchange(joint.impulse, Vec3::Zero());
+        joint.last_angular_impulse = std::exchange(joint.angular_impulse, Vec3::Zero());
+        joint.coupled_impulse = 0;
+        joint.launch_impulse.setZero();
+        joint.launch_angular_impulse.setZero();
+        joint.fixed_impulse.setZero();
+        joint.fixed_angular_impulse.setZero();
+    }
+}
 
 void prepareJoints(WorldState& world) {
     StepData& data = world.data;
@@ -114,6 +137,26 @@ void buildJointBlocks(WorldState& world) {
     }
 }
 
+void keepImpactsOnly(WorldState& world) {
+    for (JointBlock& block : world.data.joint_blocks) {
+        std::erase_if(block.bound, [](const BoundRow& bound) { return bound.is_motor; });
+        block.bounds = static_cast<std::uint32_t>(block.bound.size());
+    }
+}
+
+void addJointImpulses(WorldState& world, std::span<const JointBlock> blocks) {
+    for (const JointBlock& block : blocks) reportImpulses(block, world.bodies, world.joints[block.joint]);
+}
+
+void endLaunch(WorldState& world) {
+    for (Joint& joint : world.joints) {
+        joint.launch_impulse = joint.impulse;
+        joint.launch_angular_impulse = joint.angular_impulse;
+        joint.fixed_impulse.setZero();
+        joint.fixed_angular_impulse.setZero();
+    }
+}
+
 void countJointSupports(const WorldState& world, std::span<std::int32_t> supports) {
     for (const std::uint32_t slot : world.data.joint_groups.joints) {
         for (const BodyIndex body : {world.joints[slot].a, world.joints[slot].b}) {
@@ -145,11 +188,7 @@ void finishJoints(WorldState& world) {
     }
     const double time_step = world.settings.timeStep();
     for (std::uint32_t slot = 0; slot < world.joints.size(); ++slot) {
-        const Joint& joint = world.joints[slot];
-        if (!joint.present) continue;
-        const bool broken = joint.impulse.norm() > joint.break_force * time_step ||
-                            joint.angular_impulse.norm() > joint.break_torque * time_step;
-        if (broken) removeBroken(world, slot);
+        if (world.joints[slot].present && isOverloaded(world.joints[slot], time_step)) removeBroken(world, slot);
     }
     if (!world.data.broken.empty()) removeLooseCouplings(world);
 }

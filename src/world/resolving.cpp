@@ -4,6 +4,7 @@
 
 #include "batches/batch_motion.h"
 #include "world/checks.h"
+#include "world/joints.h"
 #include "world/pair_laws.h"
 
 namespace cairn {
@@ -94,16 +95,12 @@ void finishAgain(StepData& data, const BodyState& bodies, const FollowedGroup& g
     }
 }
 
-/// Resolves the surroundings of the contacts that were added. Bodies with joints take no part.
-void resolveFollowed(WorldState& world, BodyState& bodies) {
+/// Resolves groups of contacts once more.
+void resolveAgain(WorldState& world, BodyState& bodies, std::span<const BatchView> groups) {
     StepData& data = world.data;
-    applyPairLaws(world, bodies, data.added);
-    listContacts(world.bodies.kind, data.contacts, data.contacts_of);
-    data.surroundings.find({world.bodies.kind, data.contacts, data.contacts_of, data.jointed}, data.added,
-                           follow_reach);
     data.followed.clear();
     data.resolved.clear();
-    for (const BatchView& view : data.surroundings.groups()) {
+    for (const BatchView& view : groups) {
         const bool later = std::ranges::any_of(view.contacts, [&](std::uint32_t i) {
             const Contact& contact = data.contacts[i];
             const bool added = std::ranges::binary_search(data.added, i);
@@ -113,12 +110,48 @@ void resolveFollowed(WorldState& world, BodyState& bodies) {
         data.followed.push_back({view, later});
         beginAgain(data, bodies, data.followed.back());
     }
-    resolveChosen(world, bodies, data.surroundings.groups());
+    resolveChosen(world, bodies, groups);
     std::span<const Contact> resolved = data.resolved;
     for (const FollowedGroup& group : data.followed) {
         finishAgain(data, bodies, group, resolved.first(group.view.contacts.size()));
         resolved = resolved.subspan(group.view.contacts.size());
     }
+}
+
+/// Resolves the surroundings of the contacts that were added. Bodies with joints take no part.
+void resolveFollowed(WorldState& world, BodyState& bodies) {
+    StepData& data = world.data;
+    applyPairLaws(world, bodies, data.added);
+    listContacts(world.bodies.kind, data.contacts, data.contacts_of);
+    data.surroundings.find({world.bodies.kind, data.contacts, data.contacts_of, data.jointed}, data.added,
+                           follow_reach);
+    resolveAgain(world, bodies, data.surroundings.groups());
+}
+
+bool hasJoint(const StepData& data, const Contact& contact) {
+    return !data.jointed.empty() && (data.jointed[contact.a] | data.jointed[contact.b]) != 0;
+}
+
+/// Resolves the impacts of jointed bodies with all that they are in a batch with, and takes these batches' contacts out
+/// of those that were added.
+void resolveLaunchedJoints(WorldState& world, BodyState& bodies) {
+    StepData& data = world.data;
+    const std::vector<std::uint32_t>& batch_of = data.batches.batch_of_contact;
+    data.launched.clear();
+    for (const std::uint32_t i : data.added) {
+        if (hasJoint(data, data.contacts[i])) data.launched.push_back(batch_of[i]);
+    }
+    if (data.launched.empty()) return;
+    std::ranges::sort(data.launched);
+    data.launched.erase(std::unique(data.launched.begin(), data.launched.end()), data.launched.end());
+    std::erase_if(data.added, [&](std::uint32_t i) { return std::ranges::binary_search(data.launched, batch_of[i]); });
+    buildJointBlocks(world);
+    keepImpactsOnly(world);
+    data.launched_views.clear();
+    for (const std::uint32_t batch : data.launched) data.launched_views.push_back(data.views[batch]);
+    applyPairLaws(world, bodies);
+    resolveAgain(world, bodies, data.launched_views);
+    for (const BatchView& view : data.launched_views) addJointImpulses(world, view.joints);
 }
 
 /// Looks ahead for struck bodies and resolves their impacts until there is none, or often enough.
@@ -177,6 +210,7 @@ void resolveLaunched(WorldState& world, BodyState& bodies, const PairsInput& pai
         if (closing * bodies.time_step > contact.allowed_overlap) data.added.push_back(i);
     }
     if (data.added.empty()) return;
+    resolveLaunchedJoints(world, bodies);
     resolveFollowed(world, bodies);
     followStruck(world, bodies, pairs);
 }

@@ -114,6 +114,7 @@ bool grantLaunched(WorldState& world) {
     bodies.time_step = world.settings.timeStep();
     resolveLaunched(world, bodies, pairsInput(world, range));
     measureIfAsked(world, Measured::resolution);
+    endLaunch(world);
     for (Contact& contact : world.data.contacts) {
         // The step's own contacts begin with what they had before.
         contact.impulse = contact.last_impulse;
@@ -270,6 +271,7 @@ void stepWorld(WorldState& world) {
         // What user code did between the steps may have overflowed.
         fixNonFinite(world);
         wakeSpringEnds(world.springs, world.bodies);
+        beginJointImpulses(world);
         prepareJoints(world);
         measureIfAsked(world, Measured::begin);
         beginLaws(world);

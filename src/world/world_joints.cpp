@@ -145,6 +145,13 @@ void setFrames(const JointDescription& d, const BodyStorage& bodies, Joint& join
     joint.cone = d.cone.value_or(Joint::infinite);
 }
 
+/// @throws InputError for a body that a law leads
+void requireUnled(const WorldState& w, BodyIndex body) {
+    if (lawOf(w, body) == nullptr) return;
+    throw InputError(fmt::format(
+        "body {} moves by a law and takes no joints; lead a body on a slider or hinge by a servo in its place", body));
+}
+
 /// A joint between bodies. @throws InputError, StaleIdError
 Joint jointBetween(const JointDescription& d, WorldState& w) {
     const JointKindEntry& kind = entryOf(d.kind);
@@ -158,8 +165,8 @@ Joint jointBetween(const JointDescription& d, WorldState& w) {
         throw InputError(
             fmt::format("a {} between bodies that cannot move has no effect; one of them must be dynamic", kind.title));
     }
-    requireNoLaw(w, joint.a);
-    if (d.b) requireNoLaw(w, joint.b);
+    requireUnled(w, joint.a);
+    if (d.b) requireUnled(w, joint.b);
     setFrames(d, w.bodies, joint);
     joint.break_force = d.break_force;
     joint.break_torque = d.break_torque;

@@ -106,6 +106,8 @@ struct StepData {
     Surroundings surroundings;                        ///< resolution: of these
     std::vector<FollowedGroup> followed;              ///< resolution: the same, group after group
     std::vector<Contact> resolved;                    ///< resolution: their contacts before it went on
+    std::vector<std::uint32_t> launched;              ///< positions: batches of launched jointed bodies, ascending
+    std::vector<BatchView> launched_views;            ///< positions: the same
     MeasuredData measured;                            ///< every stage: with the setting diagnostics only
     std::vector<std::uint32_t> generation;  ///< output: [slots] generations of the bodies that the contacts name
 };

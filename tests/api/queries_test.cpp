@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <thread>
 #include <tuple>
 
@@ -217,6 +218,13 @@ TEST(WorldQueries, RefuseBadInput) {
     EXPECT_THROW(world.castShape(HalfSpace{}, Pose{}, Vec3::UnitX()), InputError);
     EXPECT_THROW(world.closestPoints(Sphere{}, Pose{}, nan), InputError);
     EXPECT_THROW(world.overlap(Vec3::Ones(), Vec3::Zero()), InputError);
+    const GroupId unknown[] = {static_cast<GroupId>(3)};
+    const QueryFilter filter{.groups = unknown};
+    const std::array rays{Ray{Vec3::Zero(), Vec3::UnitX()}, Ray{Vec3::Zero(), Vec3::UnitY()}};
+    EXPECT_THROW(world.castRay(rays[0], filter), InputError);
+    EXPECT_THROW(world.castRays(rays, filter), InputError);
+    EXPECT_THROW(world.overlap(Vec3::Zero(), Vec3::Ones(), filter), InputError);
+    EXPECT_THROW(world.closestPoints(Sphere{}, Pose{}, 1, filter), InputError);
 }
 
 }  // namespace

@@ -170,6 +170,20 @@ TEST_F(CommandLine, infoDescribesScenes) {
     }
 }
 
+TEST_F(CommandLine, infoTellsWhatWasMendedOfAMesh) {
+    write("scene.json", R"({"name":"m","duration":1,"gravity":[0,0,-10],"materials":{"oak":{"density":800}},"bodies":[
+        {"shape":{"type":"mesh","vertices":[[0,0,0],[1,0,0],[0,1,0],[0,1,0],[2,0,0]],
+         "indices":[[0,1,2],[1,3,0],[0,1,4],[4,2,1]]},"material":"oak","fixed":true},
+        {"shape":{"type":"height_field","heights":[[0,0,0],[0,1,0]],"spacing":1},"material":"oak","fixed":true}]})");
+    const Finished done = cairn({"info", "scene.json"});
+    EXPECT_NE(done.out.find("1 × 2 triangles, "), std::string::npos) << done.out << done.error;
+    EXPECT_NE(done.out.find(
+                  " MB, 4 open edges, 1 without an area left out, 1 given twice left out, 1 of the vertices welded"),
+              std::string::npos)
+        << done.out;
+    EXPECT_NE(done.out.find("1 × 3 × 2 heights, 4 triangles, "), std::string::npos) << done.out;
+}
+
 TEST_F(CommandLine, infoAndExportRefuseWhatIsNoRecording) {
     write("text.h5", "not HDF5");
     const Finished info = cairn({"info", "text.h5"});

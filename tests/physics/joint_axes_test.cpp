@@ -200,6 +200,58 @@ TEST(JointAxes, AHingeCountsItsTurnsAndStopsAfterAsManyAsItMay) {
     EXPECT_NEAR(bench.world.joint(hinge).position, stop - 100, 0.1);
 }
 
+/// Faster than half a turn in a step, where the nearest angle is another one.
+TEST(JointAxes, AHingeCountsTheTurnsOfAFastWheelAndItsGear) {
+    JointBench bench;
+    const BodyId fast = bench.add(Cylinder{0.02, 0.1}, 1, Vec3::Zero());
+    const BodyId slow = bench.add(Cylinder{0.2, 0.1}, 10, Vec3(1, 0, 0));
+    const JointId pinion = bench.world.addJoint({.kind = JointKind::hinge, .a = fast});
+    const JointId wheel = bench.world.addJoint({.kind = JointKind::hinge, .a = slow, .anchor = Vec3(1, 0, 0)});
+    const JointId gear =
+        bench.world.addJoint({.kind = JointKind::gear, .first = pinion, .second = wheel, .ratio = 0.001});
+    const double speed = 1.3 * 2 * std::numbers::pi / bench.step();
+    bench.world.setAngularVelocity(fast, Vec3(0, 0, speed));
+    bench.world.setAngularVelocity(slow, Vec3(0, 0, -0.001 * speed));
+    bench.run(0.5);
+    const World resumed = World::restore(bench.world.save());
+    EXPECT_EQ(resumed.joint(pinion).position, bench.world.joint(pinion).position);
+    bench.run(0.5);
+    EXPECT_NEAR(bench.world.joint(pinion).position, speed, 1e-9 * speed);
+    EXPECT_NEAR(bench.world.joint(wheel).position, -0.001 * speed, 1e-9 * speed);
+    EXPECT_LE(bench.world.joint(gear).error, 1e-9);
+}
+
+/// Fifty times as heavy as what it presses against a stop: impulses of an impact are far from those of the next step.
+TEST(JointAxes, AHeavyWallThatPressesBouncesOffNoFasterThanItCame) {
+    for (const int boxes : {1, 5}) {
+        World world(Settings::preset(Preset::performance, 240));
+        const MaterialId oak = world.addMaterial({"oak", 800});
+        world.setGravity(Vec3(0, 0, -10));
+        world.setDefaultPairProperties({.restitution = 0.25, .static_friction = 0.2, .kinetic_friction = 0.2});
+        world.addBody({.shape = HalfSpace{}, .material = oak, .fixed = true});
+        world.addBody({.shape = Box{{0.2, 2, 2}}, .material = oak, .pose = {Vec3(-1, 0, 1)}, .fixed = true});
+        for (int i = 0; i < boxes; ++i) {
+            world.addBody({.shape = Box{{0.2, 0.2, 0.2}}, .material = oak, .pose = {Vec3(-0.8 + 0.3 * i, 0, 0.1)}});
+        }
+        const BodyId wall = world.addBody(
+            {.shape = Box{{0.1, 2, 2}}, .material = oak, .pose = {Vec3(1.5, 0, 1.001)}, .gravity_factor = 0});
+        world.addJoint({.kind = JointKind::slider,
+                        .a = wall,
+                        .anchor = Vec3(1.5, 0, 1),
+                        .axis = -Vec3::UnitX(),
+                        .motor = JointMotor{.speed = 0.3, .limit = 400}});
+        for (int i = 0; i < 2400; ++i) {
+            world.step();
+            ASSERT_LT(std::abs(world.linearVelocity(wall).x()), 0.301) << boxes << " boxes, " << i;
+        }
+        double pressing = 0;
+        for (const ContactInfo& contact : world.contacts()) {
+            if (contact.a == wall || contact.b == wall) pressing += std::abs(contact.impulse.x()) * 240;
+        }
+        EXPECT_NEAR(pressing, 400, 40) << boxes << " boxes";
+    }
+}
+
 TEST(JointAxes, RunOnAfterASnapshotAsIfNothingHappened) {
     const auto make = [](JointBench& bench) {
         std::optional<BodyId> last;

@@ -1,6 +1,7 @@
 /// Kinds of joints with several free axes, and couplings, against closed forms.
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <numbers>
 
 #include "joint_testing.h"
@@ -175,6 +176,43 @@ TEST(JointKinds, AGearDividesSpeedAndSharesEnergy) {
     world.removeJoint(train.second);
     EXPECT_FALSE(world.contains(gear)) << "nothing is left to couple";
     train.bench.run(0.1);
+}
+
+/// What the second axis of a coupling receives, torque or force, is what its inertia takes.
+void expectBreaks(JointKind kind, double load, const std::function<JointId(GearTrain&)>& second) {
+    for (const double strength : {0.99, 1.01}) {
+        GearTrain train;
+        World& world = train.bench.world;
+        world.setEventLevel(EventLevel::changes);
+        JointDescription d{.kind = kind, .first = train.first, .second = second(train), .ratio = 1.0 / 3};
+        (kind == JointKind::gear ? d.break_torque : d.break_force) = strength * load;
+        const JointId coupling = world.addJoint(d);
+        world.setConstantTorque(train.small, Vec3(0, 0, 0.5));
+        bool told = false;
+        for (int i = 0; i < 20; ++i) {
+            world.step();
+            for (const Event& event : world.events()) {
+                told = told || (event.kind == EventKind::joint_broke && event.joint == coupling);
+            }
+        }
+        EXPECT_EQ(world.contains(coupling), strength > 1);
+        EXPECT_EQ(told, strength < 1);
+        EXPECT_TRUE(world.contains(train.first) && world.contains(d.second)) << "they go on by themselves";
+    }
+}
+
+TEST(JointKinds, CouplingsBreakAtWhatTheirSecondAxisReceives) {
+    const double inertia_1 = 0.5 * 2 * 0.01, inertia_2 = 0.5 * 18 * 0.09;
+    const double turned = 0.5 / (inertia_1 + inertia_2 / 9) / 3 * inertia_2;
+    expectBreaks(JointKind::gear, turned, [](GearTrain& train) { return train.second; });
+    const double pushed = 0.5 / (inertia_1 + 18.0 / 9) / 3 * 18;
+    const auto rail = [](GearTrain& train) {
+        train.bench.world.removeJoint(train.second);
+        return train.bench.world.addJoint(
+            {.kind = JointKind::slider, .a = train.large, .anchor = Vec3(1, 0, 0), .axis = Vec3(1, 0, 0)});
+    };
+    expectBreaks(JointKind::rack, pushed, rail);
+    expectBreaks(JointKind::mimic, pushed, rail);
 }
 
 TEST(JointKinds, ARackIsDrivenByItsPinion) {

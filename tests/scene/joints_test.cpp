@@ -73,6 +73,7 @@ TEST(SceneJoints, OfAllKindsWithAllThatActsOnThemAreWrittenAndReadExactly) {
     add({.kind = JointKind::ball, .cone = 0.5, .axes = {{.lower = -1}, {}, {.spring = JointSpring{1, 0}}}});
     const auto couple = [&](JointKind kind, std::size_t first, std::size_t second, std::size_t second_axis) {
         JointDescription joint{.kind = kind, .second_axis = second_axis, .ratio = 1.0 / 3};
+        (kind == JointKind::rack ? joint.break_force : joint.break_torque) = 1e3;
         scene.joints.push_back({.a = 0, .b = {}, .joint = joint, .first = first, .second = second});
     };
     couple(JointKind::gear, 0, 1, 0);
@@ -86,6 +87,8 @@ TEST(SceneJoints, OfAllKindsWithAllThatActsOnThemAreWrittenAndReadExactly) {
     EXPECT_EQ(axis.servo->limit, 5);
     EXPECT_EQ(axis.spring->rest, -0.5);
     EXPECT_EQ(read.joints[9].second, 4U);
+    EXPECT_EQ(read.joints[7].joint.break_torque, 1e3);
+    EXPECT_EQ(read.joints[8].joint.break_force, 1e3);
     EXPECT_EQ(SceneRun(read, settingsFor(read)).world().joints().size(), 10U);
 }
 

@@ -123,7 +123,8 @@ TEST(MeshFile, RefusesFilesThatLie) {
     EXPECT_NE(refusalOf("v 0 0 0\nf 1 0 1\n").find("line 2"), std::string::npos);
     EXPECT_NE(refusalOf("v 0 0 0\nf 1 1\n").find("fewer than three"), std::string::npos);
     EXPECT_NE(refusalOf("v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").find("finite"), std::string::npos);
-    EXPECT_NE(refusalOf("").find("no triangle"), std::string::npos);
+    EXPECT_NE(refusalOf("").find("no vertex"), std::string::npos);
+    EXPECT_NE(refusalOf("import numpy\nprint(1)\n").find("is no mesh"), std::string::npos);
     EXPECT_NE(refusalOf(plyHead("binary_big_endian")).find("binary_little_endian"), std::string::npos);
     EXPECT_NE(refusalOf("ply\nformat ascii 1.0\nelement vertex 99999999999999\nproperty float x\nend_header\n1 2 3\n")
                   .find("not complete"),
@@ -199,6 +200,9 @@ TEST(SurfaceScene, IsReadAndWrittenAsTheSame) {
         EXPECT_NE(written.find(shape), std::string::npos) << written;
         EXPECT_EQ(formatScene(parseScene(written, "y")), written);
     }
+    const std::string square = R"({"type":"mesh","vertices":[[0,0,0],[1,0,0],[0,1,0],[1,1,0]],"indices":)";
+    EXPECT_EQ(formatScene(parseScene(sceneWith(square + "[0,1,2,1,3,2]}"), "x")),
+              formatScene(parseScene(sceneWith(square + "[[0,1,2],[1,3,2]]}"), "x")));
     const Scene scaled =
         parseScene(sceneWith(R"({"type":"height_field","heights":[[0,1],[3,4]],"spacing":2,"scale":0.1})"), "x");
     EXPECT_DOUBLE_EQ(std::get<HeightField>(scaled.bodies[0].shape).heights()[3], 0.4);
@@ -228,6 +232,12 @@ TEST(SurfaceScene, SaysWhatIsWrong) {
     EXPECT_NE(sceneRefusal(R"({"type":"mesh",)" + triangle + R"(,"indices":[[0,1,3]]})").find("the vertex 3"),
               std::string::npos);
     EXPECT_NE(sceneRefusal(R"({"type":"mesh",)" + triangle + R"(,"indices":[[0,1,-1]]})").find("indices[0][2]"),
+              std::string::npos);
+    EXPECT_NE(sceneRefusal(R"({"type":"mesh",)" + triangle + R"(,"indices":[0,1,2,0]})").find("has 4 indices; give"),
+              std::string::npos);
+    EXPECT_NE(sceneRefusal(R"({"type":"mesh",)" + triangle + R"(,"indices":[0,1,[2]]})").find("indices[2]"),
+              std::string::npos);
+    EXPECT_NE(sceneRefusal(R"({"type":"mesh",)" + triangle + R"(,"indices":[[0,1,2],3,4]})").find("indices[1] is 3"),
               std::string::npos);
     EXPECT_NE(
         sceneRefusal(R"({"type":"mesh",)" + triangle + R"(,"indices":[[0,1,2]],"sides":"three"})").find("one or two"),

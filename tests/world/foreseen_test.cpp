@@ -1,6 +1,8 @@
 /// Which contacts of bodies that are apart are foreseen, and which are not.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "cairn/world.h"
@@ -167,6 +169,82 @@ TEST(ForeseenContacts, AVelocityThatAUserGivesStopsAtWhatIsNear) {
     restored.load(saved);
     restored.step();
     EXPECT_EQ(restored.stateHash(), scene.world.stateHash());
+}
+
+/// A ball and one behind it that a joint ties to it, launched at a wall.
+struct LaunchedPair {
+    Scene scene;
+    BodyId front, back;
+    JointId joint;
+
+    LaunchedPair(const Vec3& velocity, const Vec3& along, const JointDescription& joined) {
+        scene.world.setGravity(Vec3::Zero());
+        scene.world.addBody(fixedAt(Box{Vec3(0.02, 4, 4)}, Vec3::Zero()));
+        front = scene.world.addBody(at(Sphere{0.06}, Vec3(-0.4, 0, 0) + 0.1 * along));
+        back = scene.world.addBody(at(Sphere{0.06}, Vec3(-0.4, 0, 0) - 0.1 * along));
+        JointDescription d = joined;
+        d.a = front;
+        d.b = back;
+        d.anchor = Vec3(-0.4, 0, 0);
+        joint = scene.world.addJoint(d);
+        scene.world.step();
+        for (const BodyId ball : {front, back}) scene.world.setLinearVelocity(ball, velocity);
+    }
+};
+
+/// Each would be beyond the wall after the step that follows.
+TEST(ForeseenContacts, VelocitiesThatAUserGivesToJointedBodiesStopAtWhatIsNear) {
+    for (const JointKind kind : {JointKind::ball, JointKind::hinge, JointKind::fixed}) {
+        for (int i = 0; i < 12; ++i) {
+            const double turn = 0.5 * i;
+            const Vec3 along(std::cos(turn), 0.8 * std::sin(turn), 0.6 * std::sin(turn));
+            LaunchedPair pair(Vec3(45, i - 6, 3), along, {.kind = kind, .axis = Vec3(0, 0, 1)});
+            for (int step = 0; step < 5; ++step) {
+                pair.scene.world.step();
+                for (const BodyId ball : {pair.front, pair.back}) {
+                    ASSERT_LT(pair.scene.world.pose(ball).position.x(), -0.04) << i << ", step " << step;
+                }
+            }
+        }
+    }
+}
+
+/// The ball in front stops the one behind it by an impulse m·v, a mean force over the step.
+TEST(ForeseenContacts, TheImpactOfAVelocityThatAUserGivesMayBreakAJoint) {
+    for (const double strength : {0.99, 1.01}) {
+        const Vec3 velocity(30, 0, 0);
+        const double mass = 2500 * 4.0 / 3 * std::numbers::pi * 0.06 * 0.06 * 0.06;
+        LaunchedPair pair(velocity, Vec3::UnitX(),
+                          {.kind = JointKind::fixed, .break_force = strength * mass * velocity.x() * steps});
+        pair.scene.world.step();
+        EXPECT_EQ(pair.scene.world.contains(pair.joint), strength > 1);
+        EXPECT_NEAR(pair.scene.world.linearVelocity(pair.back).x(), 0, 1e-9);
+        if (strength < 1) continue;
+        EXPECT_NEAR(pair.scene.world.joint(pair.joint).impulse.x(), mass * velocity.x(), 1e-6 * mass * velocity.x());
+    }
+}
+
+TEST(ForeseenContacts, AccountsCloseWhereJointedBodiesAreLaunched) {
+    LaunchedPair pair(Vec3(45, 2, 3), Vec3(1, 0.2, 0.1), {.kind = JointKind::ball});
+    World& world = pair.scene.world;
+    world.addJoint({.kind = JointKind::ball, .a = pair.back, .anchor = Vec3(-0.6, 0.5, 0)});
+    const JointId pinion = world.addJoint({.kind = JointKind::generic,
+                                           .a = pair.front,
+                                           .axes = {{.along = JointAlong::turn_x},
+                                                    {.along = JointAlong::x},
+                                                    {.along = JointAlong::y},
+                                                    {.along = JointAlong::z}}});
+    world.addJoint({.kind = JointKind::rack, .first = pinion, .second = pinion, .second_axis = 1, .ratio = 0.1});
+    Settings settings = world.settings();
+    settings.diagnostics.diagnostics = true;
+    world.setSettings(settings);
+    for (int i = 0; i < 3; ++i) {
+        world.step();
+        const Diagnostics& d = world.statistics().diagnostics;
+        EXPECT_LT(d.momentum_error, 1e-9) << i;
+        EXPECT_LT(std::abs(d.energy_error), 1e-9 * (1 + d.energy)) << i;
+        for (const BodyId ball : {pair.front, pair.back}) EXPECT_LT(world.pose(ball).position.x(), -0.04);
+    }
 }
 
 /// A box that lands on an edge turns, and its other edge meets the floor in the same step.

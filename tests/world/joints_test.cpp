@@ -135,9 +135,16 @@ TEST(WorldJoints, RefuseCouplingsOfWhatCannotBeCoupled) {
     EXPECT_TRUE(has(couple(JointKind::rack, hinge, ball), "displacement of the second"));
     EXPECT_TRUE(has(couple(JointKind::mimic, hinge, ball, 0), "ratio of a mimic is 0"));
     EXPECT_TRUE(has(s.refusal({.kind = JointKind::gear, .damping = 1}), "nothing else"));
+    const auto breaking = [&](double force, double torque) {
+        return s.refusal(
+            {.kind = JointKind::gear, .break_force = force, .break_torque = torque, .first = hinge, .second = ball});
+    };
+    constexpr double never = JointDescription::infinite;
+    EXPECT_TRUE(has(breaking(5, never), "an angle breaks at a break_torque; leave break_force out"));
+    EXPECT_TRUE(has(breaking(never, -1), "break_torque of a gear is -1"));
     EXPECT_THROW(s.world.addJoint({.kind = JointKind::gear, .first = hinge, .second = {99, 0}}), StaleIdError);
     const JointId gear = s.world.addJoint({.kind = JointKind::gear, .first = hinge, .second = ball});
-    EXPECT_TRUE(has(couple(JointKind::mimic, hinge, gear), "no free axis 0"));
+    EXPECT_TRUE(has(couple(JointKind::mimic, hinge, gear), "is a gear itself"));
     s.world.removeBody(a);
     EXPECT_FALSE(s.world.contains(gear));
 }
