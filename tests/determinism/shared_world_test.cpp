@@ -32,6 +32,15 @@ TEST(SharedWorld, KeepsWhatSpringsConnectTogether) {
     expectSameSteps(scene, 120, restless);
 }
 
+TEST(SharedWorld, DrivesBodiesWhereTheyAre) {
+    Scene scene = row(8);
+    scene.drives.push_back({.what = DriveOf::force, .target = 3, .law = ConstantMotion{.velocity = {60, 5, 0}}});
+    scene.drives.push_back({.what = DriveOf::torque, .target = 6, .law = ConstantMotion{.velocity = {0, -2, 0}}});
+    for (const Partition& partition : {Partition{.kind = PartitionKind::x}, by_hash, restless}) {
+        expectSameSteps(scene, 120, partition);
+    }
+}
+
 TEST(SharedWorld, KeepsWhatAGearCouplesTogether) {
     Scene scene = row(6);
     const auto wheel = [&](double x) {
