@@ -6,8 +6,8 @@ namespace cairn {
 
 namespace {
 
-/// Part of the energy that sweeps which end early may add where a joint gives some: less than that is no reason to
-/// begin anew, and to weaken what holds the joint.
+/// Part of the energy that sweeps which end early may add where a joint or a moving support gives some: less than that
+/// is no reason to begin anew, and to weaken what holds a joint.
 constexpr double driven_rounding = 0.01;
 
 bool hasMotor(const JointBlock& joint) {
@@ -26,15 +26,14 @@ bool hasHistory(const BatchView& batch, std::span<const Contact> contacts) {
 }  // namespace
 
 void EnergyGuard::begin(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
-    watches_ = hasStillSupports(batch, contacts, bodies);
-    driven_ = watches_ && std::ranges::any_of(batch.joints, hasMotor);
-    if (watches_) saveMotion(batch.bodies, bodies, before_);
+    carried_ = !hasStillSupports(batch, contacts, bodies);
+    driven_ = std::ranges::any_of(batch.joints, hasMotor);
+    saveMotion(batch.bodies, bodies, before_);
 }
 
 bool EnergyGuard::refuses(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies) {
-    if (!watches_) return false;
     const EnergyGain gain = gainOf(batch, bodies);
-    const double given = givenByJoints(batch, bodies);
+    const double given = givenTo(batch, contacts, bodies);
     if (!isAboveRounding(gain, given, batch, bodies)) return false;
     if (!hasHistory(batch, contacts)) {
         keepPart(gain.largestPart(given), batch, contacts, bodies);
@@ -47,8 +46,31 @@ bool EnergyGuard::refuses(const BatchView& batch, std::span<Contact> contacts, c
 
 void EnergyGuard::bound(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies) const {
     const EnergyGain gain = gainOf(batch, bodies);
-    const double given = givenByJoints(batch, bodies);
+    const double given = givenTo(batch, contacts, bodies);
     if (isAboveRounding(gain, given, batch, bodies)) keepPart(gain.largestPart(given), batch, contacts, bodies);
+}
+
+/// What may be added [J].
+double EnergyGuard::givenTo(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) const {
+    return givenByJoints(batch, bodies) + givenBySupports(batch, contacts, bodies);
+}
+
+/// The work of fixed bodies that move, or whose surface does: the impulse that they give times their velocity.
+double EnergyGuard::givenBySupports(const BatchView& batch, std::span<const Contact> contacts,
+                                    const BodyState& bodies) const {
+    if (!carried_) return 0;
+    double given = 0;
+    for (const std::uint32_t n : batch.contacts) {
+        const Contact& contact = contacts[n];
+        const auto work = [&](BodyIndex i) {
+            if (!bodies.isFixed(i)) return 0.0;
+            const Vec3 velocity = bodies.v[i] + bodies.w[i].cross(contact.point - bodies.position[i]) +
+                                  bodies.surfaceVelocity(i, contact.normal);
+            return contact.impulse.dot(velocity) + contact.angular_impulse.dot(bodies.w[i]);
+        };
+        given += std::max(0.0, work(contact.b) - work(contact.a));
+    }
+    return given;
 }
 
 /// The work of the rows of driven joints that gave any: impulse times the mean rate.
@@ -100,7 +122,7 @@ bool EnergyGuard::isAboveRounding(const EnergyGain& gain, double given, const Ba
     for (std::size_t n = 0; n < batch.bodies.size(); ++n) {
         energy += kineticEnergyOf(bodies, batch.bodies[n], before_[n]);
     }
-    return gain.whole() - given > (driven_ ? driven_rounding : energy_rounding) * energy;
+    return gain.whole() - given > (driven_ || carried_ ? driven_rounding : energy_rounding) * energy;
 }
 
 void EnergyGuard::keepPart(double part, const BatchView& batch, std::span<Contact> contacts,

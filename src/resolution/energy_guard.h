@@ -11,8 +11,8 @@ namespace cairn {
 /// Watches over the resolution of one batch that begins with the impulses of the last step and ends early. Where it
 /// raised the kinetic energy, it begins anew without those impulses; if the energy is still above what it was, all
 /// impulses are taken by the one factor below 1 that leaves it as it was, which keeps momentum and the friction cones.
-/// Limits of joints take energy only. Where motors, servos or springs act, their work and that of the joints may be
-/// added, and a hundredth of the energy besides. Batches on a moving support are left alone: it may give energy.
+/// Limits of joints take energy only. Where motors, servos or springs act, or a fixed body or its surface moves, their
+/// work may be added, and a hundredth of the energy besides.
 class EnergyGuard {
   public:
     /// To be called before the batch is resolved.
@@ -25,12 +25,14 @@ class EnergyGuard {
 
   private:
     EnergyGain gainOf(const BatchView& batch, const BodyState& bodies) const;
+    double givenTo(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) const;
+    double givenBySupports(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) const;
     double givenByJoints(const BatchView& batch, const BodyState& bodies) const;
     bool isAboveRounding(const EnergyGain& gain, double given, const BatchView& batch, const BodyState& bodies) const;
     void keepPart(double part, const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies) const;
 
-    bool watches_ = false;
     bool driven_ = false;             ///< joints may give energy
+    bool carried_ = false;            ///< supports may
     std::vector<BodyMotion> before_;  ///< [bodies of the batch]
 };
 

@@ -38,6 +38,19 @@ TEST(EnergyGuard, ForgetsImpulsesOfAnotherSituation) {
     EXPECT_GT(pile.contacts[0].impulse.norm(), 0.01) << "the ball on the table was stopped";
 }
 
+TEST(EnergyGuard, LetsAMovingSupportGiveItsWorkOnly) {
+    for (const double speed : {1e-3, 0.1, 1.0}) {
+        Pile pile = chain(50);
+        pile.v[0] = Vec3(0, 0, speed);
+        const double before = pile.energy();
+        pile.resolve(fewSweeps());
+        const double given = speed * pile.contacts[0].impulse.norm();
+        EXPECT_LE(pile.energy(), before + given + 0.01 * (before + given)) << speed;
+        EXPECT_LT(pile.contacts[0].impulse.norm(), 10 + 100 * speed);
+        EXPECT_GT(pile.v[1].z(), 0.5 * speed) << "it is carried along";
+    }
+}
+
 TEST(EnergyGuard, LeavesGoodImpulsesAlone) {
     Pile cold = chain(0);
     Pile warm = cold;
