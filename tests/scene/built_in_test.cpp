@@ -179,42 +179,5 @@ TEST(BuiltInScenes, RefuseBadNamesAndNumbers) {
     EXPECT_FALSE(isBuiltInScene(""));
 }
 
-/// Terrain, moved ground and machines: for a second, with all checks.
-TEST(BuiltInScenes, OfTerrainAndMachinesLoseNobody) {
-    for (const char* name : {"rockfall", "shake_table", "excavator", "drum"}) {
-        const Scene scene = builtInScene(name);
-        SceneRun run(scene, settingsFor(scene));
-        run.world().setChecks(Checks::on);
-        for (int i = 0; i < 30; ++i) run.simulationStep();
-        EXPECT_TRUE(run.world().faults().empty()) << name;
-        for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-            if (scene.bodies[i].fixed) continue;
-            const Ray down{run.world().centreOfMass(run.ids()[i]), -Vec3::UnitZ()};
-            const auto hits = run.world().castRayThrough(down);
-            EXPECT_TRUE(std::ranges::any_of(hits, [&](const RayHit& hit) { return run.world().isFixed(hit.body); }))
-                << name << ": nothing fixed is below body " << i;
-        }
-    }
-}
-
-TEST(BuiltInScenes, OfMachinesDoTheirWork) {
-    const Scene excavator = builtInScene("excavator");
-    SceneRun digs(excavator, settingsFor(excavator));
-    const auto bucket = static_cast<std::size_t>(std::ranges::find(excavator.bodies, "bucket", &SceneBody::name) -
-                                                 excavator.bodies.begin());
-    const Vec3 before = digs.world().pose(digs.ids()[bucket]).position;
-    for (int i = 0; i < 150; ++i) digs.simulationStep();
-    EXPECT_GT((digs.world().pose(digs.ids()[bucket]).position - before).norm(), 0.3) << "the servos move the arm";
-
-    const Scene drum = builtInScene("drum");
-    SceneRun feeds(drum, settingsFor(drum));
-    for (int i = 0; i < 240; ++i) feeds.simulationStep();
-    std::size_t beyond = 0;
-    for (std::size_t i = 0; i < drum.bodies.size(); ++i) {
-        if (!drum.bodies[i].fixed && feeds.world().pose(feeds.ids()[i]).position.x() < -4.2) ++beyond;
-    }
-    EXPECT_GT(beyond, 10U) << "stones that the belt carried to its end";
-}
-
 }  // namespace
 }  // namespace cairn
