@@ -54,6 +54,7 @@ void FoundContacts::clear() {
     runs.clear();
     grown.clear();
     count = pair_begin = pair_end = 0;
+    others = false;
 }
 
 void FoundContacts::add(std::size_t from, std::size_t contacts, bool stays) {

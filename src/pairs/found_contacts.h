@@ -50,6 +50,7 @@ struct FoundContacts {
     std::vector<Grown> grown;
     std::size_t count = 0;                     ///< of all runs
     std::size_t pair_begin = 0, pair_end = 0;  ///< the pairs that the thread tests
+    bool others = false;                       ///< one of these has more or fewer contacts than before
 
     void clear();
     /// Appends contacts. @param from, contacts, stays as of Run

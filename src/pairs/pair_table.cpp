@@ -148,7 +148,10 @@ void PairTable::detect(const PairsInput& input, std::vector<Contact>& contacts) 
     for (FoundContacts& part : parts_) part.clear();
     forParts(input.executor, [&](FoundContacts& part) { detectPairs(input, contacts, part); });
     addFirst(input.executor);
+    const std::size_t before = contacts.size();
     joiner_.join(bodies, input.materials, input.executor, parts_, contacts);
+    const bool others = std::ranges::any_of(parts_, [](const FoundContacts& part) { return part.others; });
+    if (others || contacts.size() != before) ++layout_;
     input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             if (bodies.kind[i] == BodyKind::hole) continue;
@@ -179,15 +182,18 @@ void PairTable::followStruck(const PairsInput& input, double fastest, std::vecto
         }
     }
     joiner_.join(input.bodies, input.materials, input.executor, parts_, contacts);
+    ++layout_;
 }
 
 void PairTable::adopt(std::span<const Contact> contacts) {
+    ++layout_;
     neighbours_.begin(contacts);
     known_ = false;
     bounds_.clear();
 }
 
 void PairTable::change(const PairChange& change, std::vector<Contact>& contacts) {
+    ++layout_;
     changed_pairs_.clear();
     changed_contacts_.clear();
     auto next = change.contacts.begin();
@@ -217,6 +223,7 @@ void PairTable::change(const PairChange& change, std::vector<Contact>& contacts)
 }
 
 void PairTable::rearrange(const SlotMove& move) {
+    ++layout_;
     neighbours_.rearrange(move);
     cairn::rearrange(ahead_, move, {});
     cairn::rearrange(unmoved_, move, 0);
@@ -249,12 +256,15 @@ void PairTable::findBounds(const PairsInput& input) {
     const BodyStorage& bodies = input.bodies;
     bounds_.resize(bodies.slots());
     ahead_.resize(bodies.slots());
+    settled_.resize(bodies.slots());
     input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
             // What is awake may have been stopped or pushed since.
             const bool same = range_.foresight.time == 0 || (bodies.asleep[i] != 0 && ahead_[i].reach == 0);
+            settled_[i] = unmoved_[i];
             if (bodies.kind[i] == BodyKind::hole || (unmoved_[i] != 0 && same)) continue;
             bounds_[i] = searchedBounds(bodies, range_, i, ahead_[i]);
+            if (ahead_[i].reach > 0) settled_[i] = 0;
         }
     });
 }
@@ -330,37 +340,48 @@ void PairTable::addGrown(FoundContacts& part) {
     }
 }
 
+/// @param settled its bodies are where they were detected last and go nowhere @param part out: what was found
+void PairTable::detectPair(const PairsInput& input, std::span<const Contact> last, bool settled, Manifold& manifold,
+                           ContactPair& pair, FoundContacts& part) {
+    // Most pairs are only near each other, and this is quickly told.
+    if (!settled && !bounds_[pair.a].overlaps(bounds_[pair.b])) {
+        // What is not written need not leave the processor's cache.
+        if (pair.count != 0) pair.count = 0;
+        if (pair.ahead) pair.ahead = false;
+        return;
+    }
+    if (!mayTouch(input.bodies, input.excluded, pair)) {
+        pair.count = ContactPair::untested;
+        return;
+    }
+    const std::size_t first = part.count;
+    const bool ahead = !settled && range_.foresight.time > 0 && (ahead_[pair.a].reach > 0 || ahead_[pair.b].reach > 0);
+    const bool unmoved = (unmoved_[pair.a] & unmoved_[pair.b]) != 0;
+    const bool known = settled || (unmoved && pair.isTested() && !ahead && !pair.ahead);
+    pair.ahead = ahead;
+    if (known) {
+        part.add(pair.first, pair.count, true);
+    } else {
+        const auto before = pair.touches() ? last.subspan(pair.first, pair.count) : std::span<const Contact>();
+        const std::size_t begin = part.found.size();
+        collidePair(input.bodies, pair, range_, {input.bodies, range_, pair, ahead_}, manifold, part.found);
+        inheritImpulses(input.bodies, before, std::span(part.found).subspan(begin));
+        pair.count = static_cast<std::uint32_t>(part.found.size() - begin);
+        part.add(begin, pair.count, false);
+    }
+    pair.first = static_cast<std::uint32_t>(first);
+}
+
 /// @param part in: its pairs; out: what was found of them
 void PairTable::detectPairs(const PairsInput& input, std::span<const Contact> last, FoundContacts& part) {
-    const bool foresees = range_.foresight.time > 0;
     Manifold manifold;
     for (ContactPair& pair : neighbours_.pairs().subspan(part.pair_begin, part.pair_end - part.pair_begin)) {
-        // Most pairs are only near each other, and this is quickly told.
-        if (!bounds_[pair.a].overlaps(bounds_[pair.b])) {
-            // What is not written need not leave the processor's cache.
-            if (pair.count != 0) pair.count = 0;
-            if (pair.ahead) pair.ahead = false;
-            continue;
-        }
-        if (!mayTouch(input.bodies, input.excluded, pair)) {
-            pair.count = ContactPair::untested;
-            continue;
-        }
-        const std::size_t first = part.count;
-        const bool ahead = foresees && (ahead_[pair.a].reach > 0 || ahead_[pair.b].reach > 0);
-        const bool known = (unmoved_[pair.a] & unmoved_[pair.b]) != 0 && pair.isTested() && !ahead && !pair.ahead;
-        pair.ahead = ahead;
-        if (known) {
-            if (pair.count > 0) part.add(pair.first, pair.count, true);
-        } else {
-            const auto before = pair.touches() ? last.subspan(pair.first, pair.count) : std::span<const Contact>();
-            const std::size_t begin = part.found.size();
-            collidePair(input.bodies, pair, range_, {input.bodies, range_, pair, ahead_}, manifold, part.found);
-            inheritImpulses(input.bodies, before, std::span(part.found).subspan(begin));
-            pair.count = static_cast<std::uint32_t>(part.found.size() - begin);
-            part.add(begin, pair.count, false);
-        }
-        pair.first = static_cast<std::uint32_t>(first);
+        const bool settled = (settled_[pair.a] & settled_[pair.b]) != 0 && pair.isTested() && !pair.ahead;
+        // Where nobody moves this is told without a look at the bodies.
+        if (settled && pair.count == 0) continue;
+        const std::uint32_t before = pair.touches() ? pair.count : 0;
+        detectPair(input, last, settled, manifold, pair, part);
+        part.others = part.others || (pair.touches() ? pair.count : 0) != before;
     }
 }
 

@@ -75,12 +75,16 @@ class PairTable {
     /// [slots] grown by the margin, and by the way ahead with speculative contacts [m, W]; empty before the first
     /// detection.
     std::span<const Bounds> bounds() const { return bounds_; }
+    /// Another number whenever contacts are of other pairs, or a pair has more or fewer, than before.
+    std::uint64_t layout() const { return layout_; }
 
   private:
     void findUnmoved(const PairsInput& input);
     void findBounds(const PairsInput& input);
     template <class Work>
     void forParts(const Executor& executor, const Work& work);
+    void detectPair(const PairsInput& input, std::span<const Contact> last, bool settled, Manifold& manifold,
+                    ContactPair& pair, FoundContacts& part);
     void detectPairs(const PairsInput& input, std::span<const Contact> last, FoundContacts& part);
     bool findStruck(const PairsInput& input, const DetectionRange& range, double fastest);
     void followPairs(const PairsInput& input, const DetectionRange& range, std::span<const Contact> contacts,
@@ -94,10 +98,12 @@ class PairTable {
     DetectionRange range_;               ///< of the last detection
     std::vector<BodyAhead> ahead_;       ///< [slots]
     std::vector<std::uint8_t> unmoved_;  ///< [slots] 1 = contacts with others of these are known
+    std::vector<std::uint8_t> settled_;  ///< [slots] 1 = unmoved, and not looked ahead for
     std::vector<std::uint8_t> struck_;   ///< [slots] 1 = the resolution sent it elsewhere than foreseen
     std::vector<Bounds> bounds_;         ///< [slots]
     std::vector<FoundContacts> parts_;   ///< [threads]
     ContactJoiner joiner_;
+    std::uint64_t layout_ = 1;
     std::vector<BodyIndex> came_;             ///< since the last detection
     std::vector<ContactPair> changed_pairs_;  ///< kept memory
     std::vector<Contact> changed_contacts_;   ///< kept memory

@@ -1,10 +1,10 @@
 #include "world/locks.h"
-#include "world/division.h"
 
 #include <fmt/core.h>
 
 #include "cairn/world.h"
 #include "joints/joint_kinds.h"
+#include "world/stillness.h"
 
 namespace cairn {
 
@@ -75,7 +75,7 @@ std::uint8_t locksOf(WorldState& world, BodyIndex i) {
 }
 
 void World::setLocked(BodyId id, std::span<const JointAlong> axes) {
-    requireWhole(*state_, "World::setLocked");
+    beginChange(*state_, "World::setLocked");
     const BodyIndex i = state_->bodies.indexOf(id);
     const std::uint8_t mask = lockMaskOf(axes);
     if (mask != 0 && state_->bodies.kind[i] == BodyKind::fixed) {

@@ -170,6 +170,13 @@ bool followStruck(WorldState& world, BodyState& bodies, const PairsInput& pairs)
 
 void batchContacts(WorldState& world) {
     StepData& data = world.data;
+    // The same contacts between the same bodies connect what they connected.
+    const bool same = world.joints.empty() && data.batched.joints == 0 && data.batched.layout == data.pairs.layout() &&
+                      std::ranges::equal(data.batched.kind, world.bodies.kind);
+    if (same && world.checks == Checks::off) return;
+    data.batched.joints = world.joints.size();
+    data.batched.layout = data.pairs.layout();
+    data.batched.kind.assign(world.bodies.kind.begin(), world.bodies.kind.end());
     buildBatches(world.bodies.kind, data.contacts, data.batch_scratch, data.batches, world.joints);
     listContacts(world.bodies.kind, data.contacts, data.contacts_of);
     data.views.resize(data.batches.size());

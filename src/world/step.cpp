@@ -18,6 +18,7 @@
 #include "world/resolving.h"
 #include "world/sensors.h"
 #include "world/step_statistics.h"
+#include "world/stillness.h"
 #include "world/totals.h"
 #include "world/world_state.h"
 
@@ -259,10 +260,14 @@ void outputStage(WorldState& world) {
     summarize(world);
 }
 
-}  // namespace
+/// A step that leaves everything as it is.
+void repeatStep(WorldState& world) {
+    world.statistics.stage_ms = {};
+    beginEvents(world);
+    collectEvents(world);
+}
 
-void stepWorld(WorldState& world) {
-    ++world.steps;
+void computeStep(WorldState& world) {
     ++world.places_version;
     world.statistics = {};
     const bool checked = world.checks != Checks::off;
@@ -311,6 +316,18 @@ void stepWorld(WorldState& world) {
     timed(world, Stage::output, [&] { outputStage(world); });
     world.executor.setHelped(true);
     if (checked) checkState(world);
+    countStillSteps(world);
+}
+
+}  // namespace
+
+void stepWorld(WorldState& world) {
+    ++world.steps;
+    if (isStill(world)) {
+        repeatStep(world);
+    } else {
+        computeStep(world);
+    }
     // A quotient, not a sum: after a million steps the time is still exact to one rounding.
     const auto since = static_cast<double>(world.steps - world.steps_at_start);
     world.time = world.time_at_start + since / world.settings.steps_per_second;

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world/division.h"
 #include "world/motions.h"
 #include "world/step_rate.h"
+#include "world/stillness.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -17,6 +17,7 @@ WorldState::WorldState(const Settings& initial) {
 }
 
 void WorldState::applySettings(const Settings& s) {
+    still_steps = 0;
     const auto threads = static_cast<std::size_t>(s.parallel.threads);
     if (corrections.size() != threads || s.correction.correction != settings.correction.correction) {
         corrections.clear();
@@ -60,7 +61,7 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 MaterialId World::addMaterial(const Material& material) {
-    requireWhole(*state_, "World::addMaterial");
+    beginChange(*state_, "World::addMaterial");
     state_->lasting.reset();
     return state_->materials.add(material);
 }
@@ -70,21 +71,21 @@ std::span<const Material> World::materials() const {
 }
 
 void World::setDefaultPairProperties(const PairProperties& properties) {
-    requireWhole(*state_, "World::setDefaultPairProperties");
+    beginChange(*state_, "World::setDefaultPairProperties");
     state_->lasting.reset();
     state_->materials.setDefault(properties);
     state_->data.pairs.forgetContacts();
 }
 
 void World::setPairProperties(MaterialId a, MaterialId b, const PairProperties& properties) {
-    requireWhole(*state_, "World::setPairProperties");
+    beginChange(*state_, "World::setPairProperties");
     state_->lasting.reset();
     state_->materials.setPair(a, b, properties);
     state_->data.pairs.forgetContacts();
 }
 
 void World::setPairLaw(MaterialId a, MaterialId b, const PairLaw& law) {
-    requireWhole(*state_, "World::setPairLaw");
+    beginChange(*state_, "World::setPairLaw");
     state_->lasting.reset();
     state_->materials.setLaw(a, b, law);
     state_->data.pairs.forgetContacts();
@@ -107,7 +108,7 @@ PairProperties World::pairProperties(MaterialId a, MaterialId b) const {
 }
 
 void World::setGlobalAcceleration(const Vec3& acceleration) {
-    requireWhole(*state_, "World::setGlobalAcceleration");
+    beginChange(*state_, "World::setGlobalAcceleration");
     validate(state_->settings, lastingGravity(state_->gravity, state_->gravity_law) + acceleration);
     if (acceleration == state_->global_acceleration) return;
     state_->global_acceleration = acceleration;
@@ -145,7 +146,7 @@ const Settings& World::settings() const {
 }
 
 void World::setSettings(const Settings& settings) {
-    if (!differInThreadsAlone(settings, state_->settings)) requireWhole(*state_, "World::setSettings");
+    if (!differInThreadsAlone(settings, state_->settings)) beginChange(*state_, "World::setSettings");
     validate(settings, lastingGravity(state_->gravity, state_->gravity_law) + state_->global_acceleration);
     state_->applySettings(state_->sized ? withKnownSteps(settings, state_->step_exponent) : settings);
 }

@@ -14,6 +14,7 @@
 #include "world/motions.h"
 #include "world/requirements.h"
 #include "world/step_rate.h"
+#include "world/stillness.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -155,7 +156,7 @@ BodyId World::addBody(const BodyDescription& d) {
     if (isDealing(w)) {
         requireDealable(d);
     } else {
-        requireWhole(w, "World::addBody");
+        beginChange(w, "World::addBody");
     }
     validateDescription(d, w.materials);
     const Quat orientation = requireRotation(d.pose.orientation);
@@ -207,7 +208,7 @@ BodyId World::addBody(const BodyDescription& d) {
 }
 
 void World::removeBody(BodyId id) {
-    requireWhole(*state_, "World::removeBody");
+    beginChange(*state_, "World::removeBody");
     WorldState& w = *state_;
     const BodyIndex i = w.bodies.indexOf(id);
     w.lasting.reset();

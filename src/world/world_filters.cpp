@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "cairn/world.h"
-#include "world/division.h"
 #include "world/limits.h"
+#include "world/stillness.h"
 #include "world/world_state.h"
 
 namespace cairn {
 
 GroupId World::addGroup(const std::string& name) {
-    requireWhole(*state_, "World::addGroup");
+    beginChange(*state_, "World::addGroup");
     state_->lasting.reset();
     return state_->bodies.filter.addGroup(name);
 }
@@ -21,7 +21,7 @@ std::span<const std::string> World::groupNames() const {
 }
 
 void World::setGroupsTouch(GroupId a, GroupId b, Touch touch) {
-    requireWhole(*state_, "World::setGroupsTouch");
+    beginChange(*state_, "World::setGroupsTouch");
     WorldState& w = *state_;
     if (w.bodies.filter.ofGroups(a, b) == touch) return;
     w.lasting.reset();
@@ -34,7 +34,7 @@ Touch World::groupsTouch(GroupId a, GroupId b) const {
 }
 
 void World::setGroups(BodyId id, std::span<const GroupId> groups) {
-    requireWhole(*state_, "World::setGroups");
+    beginChange(*state_, "World::setGroups");
     WorldState& w = *state_;
     const BodyIndex i = w.bodies.indexOf(id);
     const std::uint64_t mask = w.bodies.filter.maskOf(groups);
@@ -53,7 +53,7 @@ std::vector<GroupId> World::groups(BodyId id) const {
 }
 
 void World::setPairTouch(BodyId a, BodyId b, std::optional<Touch> touch) {
-    requireWhole(*state_, "World::setPairTouch");
+    beginChange(*state_, "World::setPairTouch");
     WorldState& w = *state_;
     const BodyIndex i = w.bodies.indexOf(a);
     const BodyIndex k = w.bodies.indexOf(b);
@@ -77,7 +77,7 @@ std::span<const Sensed> World::sensed() const {
 }
 
 void World::setGravityFactor(BodyId id, double factor) {
-    requireWhole(*state_, "World::setGravityFactor");
+    beginChange(*state_, "World::setGravityFactor");
     BodyStorage& b = state_->bodies;
     const BodyIndex i = b.indexOf(id);
     requireGravityFactor(factor);
@@ -91,7 +91,7 @@ double World::gravityFactor(BodyId id) const {
 }
 
 void World::setDamping(BodyId id, double linear, double angular) {
-    requireWhole(*state_, "World::setDamping");
+    beginChange(*state_, "World::setDamping");
     BodyStorage& b = state_->bodies;
     const BodyIndex i = b.indexOf(id);
     requireDamping(linear, "linear");
@@ -111,7 +111,7 @@ double World::angularDamping(BodyId id) const {
 }
 
 void World::setUserData(BodyId id, std::uint64_t data) {
-    requireWhole(*state_, "World::setUserData");
+    beginChange(*state_, "World::setUserData");
     const BodyIndex i = state_->bodies.indexOf(id);
     state_->lasting.reset();
     state_->bodies.user_data[i] = data;

@@ -9,10 +9,10 @@
 #include "cairn/world.h"
 #include "joints/joint_kinds.h"
 #include "world/couplings.h"
-#include "world/division.h"
 #include "world/joint_axes.h"
 #include "world/limits.h"
 #include "world/motions.h"
+#include "world/stillness.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -177,7 +177,7 @@ Joint jointBetween(const JointDescription& d, WorldState& w) {
 }  // namespace
 
 JointId World::addJoint(const JointDescription& d) {
-    requireWhole(*state_, "World::addJoint");
+    beginChange(*state_, "World::addJoint");
     WorldState& w = *state_;
     if (static_cast<std::size_t>(d.kind) >= jointKinds().size()) {
         throw InputError("the kind of a joint is none of JointKind");
@@ -196,7 +196,7 @@ JointId World::addJoint(const JointDescription& d) {
 }
 
 void World::removeJoint(JointId id) {
-    requireWhole(*state_, "World::removeJoint");
+    beginChange(*state_, "World::removeJoint");
     Joint& joint = jointOf(state_->joints, id);
     wakeEnds(state_->bodies, joint);
     joint.present = false;

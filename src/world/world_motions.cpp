@@ -2,9 +2,9 @@
 #include <fmt/core.h>
 
 #include "cairn/world.h"
-#include "world/division.h"
 #include "world/limits.h"
 #include "world/motions.h"
+#include "world/stillness.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -35,7 +35,7 @@ void requireUnjointed(WorldState& w, BodyIndex i) {
 }  // namespace
 
 void World::setMotion(BodyId id, const Motion& motion, const Vec3& pivot) {
-    requireWhole(*state_, "World::setMotion");
+    beginChange(*state_, "World::setMotion");
     WorldState& w = *state_;
     const BodyIndex i = w.bodies.indexOf(id);
     requireFixed(w.bodies, i);
@@ -52,7 +52,7 @@ void World::setMotion(BodyId id, const Motion& motion, const Vec3& pivot) {
 }
 
 void World::stopMotion(BodyId id) {
-    requireWhole(*state_, "World::stopMotion");
+    beginChange(*state_, "World::stopMotion");
     WorldState& w = *state_;
     const BodyIndex i = w.bodies.indexOf(id);
     removeLaw(w, i);
@@ -65,7 +65,7 @@ std::optional<Motion> World::motion(BodyId id) const {
 }
 
 void World::setSurfaceVelocity(BodyId id, const Vec3& velocity) {
-    requireWhole(*state_, "World::setSurfaceVelocity");
+    beginChange(*state_, "World::setSurfaceVelocity");
     WorldState& w = *state_;
     const BodyIndex i = w.bodies.indexOf(id);
     requireFixed(w.bodies, i);
@@ -84,7 +84,7 @@ Vec3 World::surfaceVelocity(BodyId id) const {
 }
 
 void World::setGravity(const Vec3& gravity, const std::optional<Motion>& law) {
-    requireWhole(*state_, "World::setGravity");
+    beginChange(*state_, "World::setGravity");
     WorldState& w = *state_;
     std::optional<GravityLaw> new_law;
     if (law) {
@@ -112,7 +112,7 @@ std::optional<Motion> World::gravityLaw() const {
 }
 
 void World::setFrameMotion(const std::optional<Motion>& motion) {
-    requireWhole(*state_, "World::setFrameMotion");
+    beginChange(*state_, "World::setFrameMotion");
     WorldState& w = *state_;
     if (!motion) {
         w.frame.reset();

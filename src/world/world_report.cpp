@@ -4,8 +4,8 @@
 
 #include "cairn/world.h"
 #include "messages/packing.h"
-#include "world/division.h"
 #include "world/step_statistics.h"
+#include "world/stillness.h"
 #include "world/totals.h"
 #include "world/world_state.h"
 
@@ -121,7 +121,7 @@ const std::vector<FaultInfo>& World::faults() const {
 }
 
 void World::setEventLevel(EventLevel level) {
-    requireWhole(*state_, "World::setEventLevel");
+    beginChange(*state_, "World::setEventLevel");
     state_->events.level = level;
 }
 

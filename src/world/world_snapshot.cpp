@@ -6,6 +6,7 @@
 #include "world/rollback.h"
 #include "world/snapshot.h"
 #include "world/snapshot_parts.h"
+#include "world/stillness.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -96,7 +97,7 @@ World World::restore(std::span<const std::byte> snapshot) {
 }
 
 void World::load(std::span<const std::byte> snapshot) {
-    requireWhole(*state_, "World::load");
+    beginChange(*state_, "World::load");
     World loaded = restore(snapshot);
     // What the user watches the world with is no part of its state.
     loaded.setChecks(state_->checks);
@@ -118,7 +119,7 @@ void World::keep(RollbackState& state) const {
 }
 
 void World::load(const RollbackState& state) {
-    requireWhole(*state_, "World::load");
+    beginChange(*state_, "World::load");
     if (state.state_ == nullptr) throw InputError("the state is empty; fill it with World::keep() first");
     loadRollback(*state.state_, *state_);
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cairn/world.h"
-#include "world/division.h"
+#include "world/stillness.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -46,7 +46,7 @@ void wakeEnds(BodyStorage& bodies, const Spring& spring) {
 }  // namespace
 
 SpringId World::addSpring(const SpringDescription& d) {
-    requireWhole(*state_, "World::addSpring");
+    beginChange(*state_, "World::addSpring");
     WorldState& w = *state_;
     const BodyIndex a = w.bodies.indexOf(d.a);
     const BodyIndex b = d.b ? w.bodies.indexOf(*d.b) : Spring::world_point;
@@ -79,7 +79,7 @@ SpringId World::addSpring(const SpringDescription& d) {
 }
 
 void World::removeSpring(SpringId id) {
-    requireWhole(*state_, "World::removeSpring");
+    beginChange(*state_, "World::removeSpring");
     Spring& spring = springOf(state_->springs, id);
     wakeEnds(state_->bodies, spring);
     spring.present = false;
@@ -87,7 +87,7 @@ void World::removeSpring(SpringId id) {
 }
 
 void World::setSpringAnchor(SpringId id, const Vec3& anchor_b) {
-    requireWhole(*state_, "World::setSpringAnchor");
+    beginChange(*state_, "World::setSpringAnchor");
     Spring& spring = springOf(state_->springs, id);
     requireFinite(anchor_b, "anchor_b");
     spring.anchor_b = anchorInBody(state_->bodies, spring.b, anchor_b);

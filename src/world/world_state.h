@@ -75,6 +75,13 @@ struct FollowedGroup {
     bool later;  ///< for an impact that follows the others
 };
 
+/// What batches were built of.
+struct BatchedFrom {
+    std::uint64_t layout = 0;    ///< PairTable::layout()
+    std::size_t joints = 0;      ///< removed ones, too
+    std::vector<BodyKind> kind;  ///< [slots]
+};
+
 /// The arrays that one stage leaves to the next; nothing else travels between stages. Named with their producer.
 struct StepData {
     PairTable pairs;                    ///< detection: which contacts are of which two bodies
@@ -82,6 +89,7 @@ struct StepData {
     ContactsOfBodies contacts_of;       ///< batches: [slots] contact indices
     Batches batches;                    ///< batches: groups in canonical order
     BatchScratch batch_scratch;         ///< batches: kept memory
+    BatchedFrom batched;                ///< batches: to tell when they stay
     std::vector<BatchView> views;       ///< batches: [batches], and their joints since the resolution
     BatchSchedule schedule;             ///< batches: order of work, large ones first
     Selection selection;                ///< resolution: what of the batches is resolved
@@ -172,6 +180,7 @@ struct WorldState {
     std::vector<double>
         dealt_extents;      ///< middle ones of all bodies that move and were dealt out, until the first step
     bool launched = false;  ///< a user gave a body a velocity or a place since the last step
+    int still_steps = 0;    ///< last steps that everybody slept through, without a call since
     std::int64_t steps = 0;
     double time = 0;                  ///< [s]
     bool sized = false;               ///< bodies have told how many time steps they need

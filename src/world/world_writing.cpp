@@ -4,11 +4,11 @@
 #include "activity/sleeping.h"
 #include "cairn/world.h"
 #include "geometry/geometry.h"
-#include "world/division.h"
 #include "world/limits.h"
 #include "world/locks.h"
 #include "world/motions.h"
 #include "world/requirements.h"
+#include "world/stillness.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -56,12 +56,12 @@ void writeVectors(BodyStorage& bodies, std::span<const BodyId> ids, std::span<co
 }  // namespace
 
 void World::setPose(BodyId id, const Pose& pose) {
-    requireWhole(*state_, "World::setPose");
+    beginChange(*state_, "World::setPose");
     setPoses({&id, 1}, {&pose, 1});
 }
 
 void World::setPoses(std::span<const BodyId> ids, std::span<const Pose> poses) {
-    requireWhole(*state_, "World::setPoses");
+    beginChange(*state_, "World::setPoses");
     BodyStorage& b = state_->bodies;
     requireEqualLengths(ids.size(), poses.size(), "pose");
     for (std::size_t k = 0; k < ids.size(); ++k) {
@@ -83,31 +83,31 @@ void World::setPoses(std::span<const BodyId> ids, std::span<const Pose> poses) {
 }
 
 void World::setLinearVelocity(BodyId id, const Vec3& v) {
-    requireWhole(*state_, "World::setLinearVelocity");
+    beginChange(*state_, "World::setLinearVelocity");
     setLinearVelocities({&id, 1}, {&v, 1});
 }
 
 void World::setLinearVelocities(std::span<const BodyId> ids, std::span<const Vec3> v) {
-    requireWhole(*state_, "World::setLinearVelocities");
+    beginChange(*state_, "World::setLinearVelocities");
     BodyStorage& b = state_->bodies;
     state_->launched = true;
     writeVectors(b, ids, v, written_velocity, [&](BodyIndex i, const Vec3& value) { b.v[i] = value; });
 }
 
 void World::setAngularVelocity(BodyId id, const Vec3& w) {
-    requireWhole(*state_, "World::setAngularVelocity");
+    beginChange(*state_, "World::setAngularVelocity");
     setAngularVelocities({&id, 1}, {&w, 1});
 }
 
 void World::setAngularVelocities(std::span<const BodyId> ids, std::span<const Vec3> w) {
-    requireWhole(*state_, "World::setAngularVelocities");
+    beginChange(*state_, "World::setAngularVelocities");
     BodyStorage& b = state_->bodies;
     state_->launched = true;
     writeVectors(b, ids, w, written_spin, [&](BodyIndex i, const Vec3& value) { b.w[i] = value; });
 }
 
 void World::setFixed(BodyId id, bool fixed) {
-    requireWhole(*state_, "World::setFixed");
+    beginChange(*state_, "World::setFixed");
     BodyStorage& b = state_->bodies;
     const BodyIndex i = b.indexOf(id);
     if (!fixed && !isSolid(b.shape[i])) {
@@ -129,12 +129,12 @@ void World::setFixed(BodyId id, bool fixed) {
 }
 
 void World::wake(BodyId id) {
-    requireWhole(*state_, "World::wake");
+    beginChange(*state_, "World::wake");
     wake(std::span<const BodyId>(&id, 1));
 }
 
 void World::wake(std::span<const BodyId> ids) {
-    requireWhole(*state_, "World::wake");
+    beginChange(*state_, "World::wake");
     BodyStorage& b = state_->bodies;
     for (const BodyId id : ids) b.indexOf(id);
     const BodyState state = b.state();
@@ -142,18 +142,18 @@ void World::wake(std::span<const BodyId> ids) {
 }
 
 void World::applyForce(BodyId id, const Vec3& force) {
-    requireWhole(*state_, "World::applyForce");
+    beginChange(*state_, "World::applyForce");
     applyForces({&id, 1}, {&force, 1});
 }
 
 void World::applyForces(std::span<const BodyId> ids, std::span<const Vec3> forces) {
-    requireWhole(*state_, "World::applyForces");
+    beginChange(*state_, "World::applyForces");
     BodyStorage& b = state_->bodies;
     writeVectors(b, ids, forces, written_force, [&](BodyIndex i, const Vec3& value) { b.force[i] += value; });
 }
 
 void World::applyForceAt(BodyId id, const Vec3& force, const Vec3& point) {
-    requireWhole(*state_, "World::applyForceAt");
+    beginChange(*state_, "World::applyForceAt");
     BodyStorage& b = state_->bodies;
     const BodyIndex i = dynamicIndex(b, id, written_force.kind);
     requireWithin(force, load_limit, "force", "N");
@@ -164,23 +164,23 @@ void World::applyForceAt(BodyId id, const Vec3& force, const Vec3& point) {
 }
 
 void World::applyTorque(BodyId id, const Vec3& torque) {
-    requireWhole(*state_, "World::applyTorque");
+    beginChange(*state_, "World::applyTorque");
     applyTorques({&id, 1}, {&torque, 1});
 }
 
 void World::applyTorques(std::span<const BodyId> ids, std::span<const Vec3> torques) {
-    requireWhole(*state_, "World::applyTorques");
+    beginChange(*state_, "World::applyTorques");
     BodyStorage& b = state_->bodies;
     writeVectors(b, ids, torques, written_torque, [&](BodyIndex i, const Vec3& value) { b.torque[i] += value; });
 }
 
 void World::applyImpulse(BodyId id, const Vec3& impulse) {
-    requireWhole(*state_, "World::applyImpulse");
+    beginChange(*state_, "World::applyImpulse");
     applyImpulses({&id, 1}, {&impulse, 1});
 }
 
 void World::applyImpulses(std::span<const BodyId> ids, std::span<const Vec3> impulses) {
-    requireWhole(*state_, "World::applyImpulses");
+    beginChange(*state_, "World::applyImpulses");
     BodyStorage& b = state_->bodies;
     state_->launched = true;
     writeVectors(b, ids, impulses, written_impulse,
@@ -188,7 +188,7 @@ void World::applyImpulses(std::span<const BodyId> ids, std::span<const Vec3> imp
 }
 
 void World::applyImpulseAt(BodyId id, const Vec3& impulse, const Vec3& point) {
-    requireWhole(*state_, "World::applyImpulseAt");
+    beginChange(*state_, "World::applyImpulseAt");
     BodyStorage& b = state_->bodies;
     const BodyIndex i = dynamicIndex(b, id, written_impulse.kind);
     requireWithin(point, distance_limit, "point", "m");
@@ -197,12 +197,12 @@ void World::applyImpulseAt(BodyId id, const Vec3& impulse, const Vec3& point) {
 }
 
 void World::applyAngularImpulse(BodyId id, const Vec3& impulse) {
-    requireWhole(*state_, "World::applyAngularImpulse");
+    beginChange(*state_, "World::applyAngularImpulse");
     applyAngularImpulses({&id, 1}, {&impulse, 1});
 }
 
 void World::applyAngularImpulses(std::span<const BodyId> ids, std::span<const Vec3> impulses) {
-    requireWhole(*state_, "World::applyAngularImpulses");
+    beginChange(*state_, "World::applyAngularImpulses");
     BodyStorage& b = state_->bodies;
     state_->launched = true;
     writeVectors(b, ids, impulses, written_angular_impulse,
