@@ -14,16 +14,17 @@ bool isExcluded(const SurroundingsInput& input, const Contact& contact) {
 
 }  // namespace
 
-void Surroundings::find(const SurroundingsInput& input, std::span<const std::uint32_t> seeds, int reach) {
+void Surroundings::find(const SurroundingsInput& input, std::span<const std::uint32_t> seeds, const Rings& rings) {
     inner_.assign(input.kind.size(), 0);
     parent_.assign(input.kind.size(), nobody);
-    collectBodies(input, seeds, reach);
+    collectBodies(input, seeds, rings);
     collectContacts(input);
     divide();
 }
 
 /// Finds the bodies with all their contacts, ring after ring.
-void Surroundings::collectBodies(const SurroundingsInput& input, std::span<const std::uint32_t> seeds, int reach) {
+void Surroundings::collectBodies(const SurroundingsInput& input, std::span<const std::uint32_t> seeds,
+                                 const Rings& rings) {
     inside_.clear();
     const auto take = [&](BodyIndex i) {
         if (input.kind[i] != BodyKind::dynamic || inner_[i] != 0) return;
@@ -37,12 +38,12 @@ void Surroundings::collectBodies(const SurroundingsInput& input, std::span<const
         take(contact.b);
     }
     std::size_t begin = 0;
-    for (int ring = 1; ring < reach; ++ring) {
+    for (int ring = 1; ring < rings.far; ++ring) {
         const std::size_t end = inside_.size();
         for (; begin < end; ++begin) {
             for (const std::uint32_t i : input.contacts_of[inside_[begin]]) {
                 const Contact& contact = input.contacts[i];
-                if (isExcluded(input, contact)) continue;
+                if (isExcluded(input, contact) || (ring >= rings.near && !rings.leads(contact))) continue;
                 take(contact.a);
                 take(contact.b);
             }

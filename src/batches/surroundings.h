@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "batches/batches.h"
+#include "parallel/function_ref.h"
 
 namespace cairn {
 
@@ -18,18 +19,25 @@ struct SurroundingsInput {
     std::span<const std::uint8_t> excluded;  ///< [slots] 1 = its contacts are left out; empty = none
 };
 
+/// How many contacts away from the seeds the bodies are that are taken with all their contacts.
+struct Rings {
+    int near;  ///< through any contact
+    int far;   ///< further on, through contacts that lead there
+    FunctionRef<bool(const Contact&)> leads;
+};
+
 /// Groups of contacts that share no body that moves, each with all contacts of the bodies that so many contacts lead to
 /// from one of some contacts. The bodies at the edge of a group are in it with a part of their contacts: what the group
 /// gives them they keep, so nothing is lost, but what it means to their others is not asked.
 class Surroundings {
   public:
-    /// @param seeds indices of contacts @param reach in contacts, from the bodies of the seeds
-    void find(const SurroundingsInput& input, std::span<const std::uint32_t> seeds, int reach);
+    /// @param seeds indices of contacts @param rings from their bodies
+    void find(const SurroundingsInput& input, std::span<const std::uint32_t> seeds, const Rings& rings);
     /// In the order of their lowest bodies.
     std::span<const BatchView> groups() const { return groups_; }
 
   private:
-    void collectBodies(const SurroundingsInput& input, std::span<const std::uint32_t> seeds, int reach);
+    void collectBodies(const SurroundingsInput& input, std::span<const std::uint32_t> seeds, const Rings& rings);
     void collectContacts(const SurroundingsInput& input);
     void divide();
     BodyIndex rootOf(BodyIndex body);

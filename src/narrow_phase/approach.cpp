@@ -23,7 +23,7 @@ Pose MovingShape::poseAfter(double time) const {
     return {centre + v * time + turn * (pose.position - centre), (turn * pose.orientation).normalized()};
 }
 
-bool overlapWithin(const MovingShape& a, const MovingShape& b, double time, double depth) {
+std::optional<double> timeOfOverlap(const MovingShape& a, const MovingShape& b, double time, double depth) {
     const Vec3 approach = b.v - a.v;  // along the normal, which points from B to A, they close with n·approach
     const double turning = a.turning + b.turning;
     const double fastest = approach.norm() + turning;
@@ -42,11 +42,11 @@ bool overlapWithin(const MovingShape& a, const MovingShape& b, double time, doub
             if (closing > 0) safe = std::min(safe, missing / closing);
         };
         forEachManifold(a.shape, a.poseAfter(now), b.shape, b.poseAfter(now), fastest * left, manifold, look);
-        if (deep) return true;
-        if (!(safe < left)) return false;
+        if (deep) return now;
+        if (!(safe < left)) return {};
         now += safe;
     }
-    return true;
+    return now;
 }
 
 }  // namespace cairn

@@ -1,5 +1,7 @@
-/// @file Whether two moving shapes would overlap within a time.
+/// @file When two moving shapes would overlap.
 #pragma once
+
+#include <optional>
 
 #include "narrow_phase/narrow_phase.h"
 
@@ -17,10 +19,10 @@ struct MovingShape {
     Pose poseAfter(double time) const;
 };
 
-/// Whether two shapes, if nothing stopped them, would overlap by more than a depth at some time within a time step.
-/// Conservative advancement: no time is passed over in which they could; what is not decided after a number of rounds
-/// counts as overlapping. @param time of the step [s] @param depth [m], ≥ 0
+/// When two shapes, if nothing stopped them, would first overlap by more than a depth within a time step [s]; none if
+/// they would not. Conservative advancement: no time is passed over in which they could; what is not decided after a
+/// number of rounds counts as overlapping. @param time of the step [s] @param depth [m], ≥ 0
 /// @source Mirtich: Impulse-based dynamic simulation of rigid body systems, Berkeley 1996, §2.3
-bool overlapWithin(const MovingShape& a, const MovingShape& b, double time, double depth);
+std::optional<double> timeOfOverlap(const MovingShape& a, const MovingShape& b, double time, double depth);
 
 }  // namespace cairn

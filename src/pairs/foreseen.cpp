@@ -91,8 +91,9 @@ bool PairAhead::meetsWith(const BodyAhead* a, const BodyAhead* b, double depth) 
     const double way = range_.foresight.time * (together.norm() + turning);
     // Bodies that come closer by less than this either overlap at the end or only graze each other.
     if (way > std::min(bodies_.r_min[pair_.a], bodies_.r_min[pair_.b])) {
-        return overlapWithin(movingShape(bodies_, pair_.a, a), movingShape(bodies_, pair_.b, b), range_.foresight.time,
-                             depth);
+        return timeOfOverlap(movingShape(bodies_, pair_.a, a), movingShape(bodies_, pair_.b, b), range_.foresight.time,
+                             depth)
+            .has_value();
     }
     bool deep = false;
     Manifold manifold;
@@ -124,13 +125,28 @@ bool PairAhead::closes(const Vec3& point, const Vec3& normal, double distance) c
 }
 
 void PairAhead::forEachAtEnd(Manifold& manifold, FunctionRef<void(const Vec3&, const Vec3&, double)> use) const {
-    const double depth = range_.overlapOf(bodies_.r_min[pair_.a], bodies_.r_min[pair_.b]);
     const double time = range_.foresight.time;
+    const double depth = range_.overlapOf(bodies_.r_min[pair_.a], bodies_.r_min[pair_.b]);
+    if (forEachAfter(time, depth, manifold, use)) return;
+    // Those that overlap little at the end, or are past each other, may have met on the way.
+    if (!(way() > std::min(bodies_.r_min[pair_.a], bodies_.r_min[pair_.b]))) return;
+    const auto moving = [&](BodyIndex i, const BodyAhead& ahead) {
+        return movingShape(bodies_, i, ahead.reach > 0 ? &ahead : nullptr);
+    };
+    const auto met = timeOfOverlap(moving(pair_.a, a_), moving(pair_.b, b_), time, depth);
+    if (met && *met > 0) forEachAfter(*met, depth / 2, manifold, use);
+}
+
+/// Calls use() for where the bodies overlap after a time by more than a depth. @return whether there is such a place,
+/// in which they do not part
+bool PairAhead::forEachAfter(double time, double depth, Manifold& manifold,
+                             FunctionRef<void(const Vec3&, const Vec3&, double)> use) const {
     const auto back = [&](BodyIndex i, const BodyAhead& ahead, const Vec3& point) -> Vec3 {
         if (!(ahead.reach > 0)) return point;
         const Vec3 lever = point - (bodies_.position[i] + bodies_.v[i] * time);
         return bodies_.position[i] + fromRotationVector(bodies_.w[i] * time).conjugate() * lever;
     };
+    bool any = false;
     const auto look = [&](const Manifold& found) {
         for (std::size_t k = 0; k < found.size; ++k) {
             const auto& [place, distance, triangle] = found.points[k];
@@ -141,15 +157,22 @@ void PairAhead::forEachAtEnd(Manifold& manifold, FunctionRef<void(const Vec3&, c
             };
             const double closing = found.normal.dot(velocity(pair_.a) - velocity(pair_.b));
             // Those that part were closer before: where they are now is for the correction.
-            if (closing < 0) use(point, found.normal, distance - closing * time);
+            if (!(closing < 0)) continue;
+            any = true;
+            use(point, found.normal, distance - closing * time);
         }
     };
-    forEachManifold(bodies_.shape[pair_.a], endOf(pair_.a, a_), bodies_.shape[pair_.b], endOf(pair_.b, b_), 0, manifold,
-                    look);
+    forEachManifold(bodies_.shape[pair_.a], afterTime(pair_.a, a_, time), bodies_.shape[pair_.b],
+                    afterTime(pair_.b, b_, time), 0, manifold, look);
+    return any;
+}
+
+Pose PairAhead::afterTime(BodyIndex i, const BodyAhead& ahead, double time) const {
+    return ahead.reach > 0 ? poseAfter(bodies_, i, ahead, time) : bodies_.shapePose(i);
 }
 
 Pose PairAhead::endOf(BodyIndex i, const BodyAhead& ahead) const {
-    return ahead.reach > 0 ? poseAfter(bodies_, i, ahead, range_.foresight.time) : bodies_.shapePose(i);
+    return afterTime(i, ahead, range_.foresight.time);
 }
 
 /// With what gravity adds.

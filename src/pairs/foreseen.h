@@ -111,6 +111,9 @@ class PairAhead {
 
     bool passesFar(BodyIndex solid) const;
     bool meetsWith(const BodyAhead* a, const BodyAhead* b, double depth) const;
+    bool forEachAfter(double time, double depth, Manifold& manifold,
+                      FunctionRef<void(const Vec3&, const Vec3&, double)> use) const;
+    Pose afterTime(BodyIndex i, const BodyAhead& ahead, double time) const;
     Pose endOf(BodyIndex i, const BodyAhead& ahead) const;
     Pose fallenEndOf(BodyIndex i, const BodyAhead& ahead) const;
     OverSurface overSurface() const;

@@ -53,6 +53,7 @@ void FoundContacts::clear() {
     found.clear();
     runs.clear();
     grown.clear();
+    tightened.clear();
     count = pair_begin = pair_end = 0;
     others = false;
 }

@@ -45,9 +45,16 @@ struct FoundContacts {
         std::size_t pair;     ///< its index
         std::uint32_t count;  ///< of the new contacts
     };
+    /// A contact that does not keep its bodies apart until the end of the step.
+    struct Tightened {
+        std::size_t pair;        ///< index of its pair
+        std::uint32_t place;     ///< among the contacts of the pair
+        double allowed_closing;  ///< that does [m/s]
+    };
     std::vector<FoundContact> found;
     std::vector<Run> runs;
     std::vector<Grown> grown;
+    std::vector<Tightened> tightened;
     std::size_t count = 0;                     ///< of all runs
     std::size_t pair_begin = 0, pair_end = 0;  ///< the pairs that the thread tests
     bool others = false;                       ///< one of these has more or fewer contacts than before

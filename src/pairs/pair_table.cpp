@@ -79,11 +79,21 @@ void collidePair(const BodyStorage& bodies, const BodyPair& pair, const Detectio
     if (ahead.mayCross()) collideCrossed(bodies, pair, range, ahead, contacts);
 }
 
-/// Appends the contacts that keep the bodies of one pair apart and that it does not have yet: those that would be found
-/// with the velocities of now, and those of the places where the bodies overlap in the end all the same, since they
-/// turn other sides to each other. @param known that the pair has
-void findMissing(const BodyStorage& bodies, const BodyPair& pair, const DetectionRange& range, const PairAhead& ahead,
-                 Manifold& manifold, std::span<const Contact> known, std::vector<FoundContact>& contacts) {
+/// Notes what a contact of a pair must allow at most, if it allows more.
+void tighten(const FoundContacts::Tightened& wanted, double allowed_now, std::vector<FoundContacts::Tightened>& all) {
+    if (!(wanted.allowed_closing < allowed_now)) return;
+    const bool again = !all.empty() && all.back().pair == wanted.pair && all.back().place == wanted.place;
+    if (!again) all.push_back(wanted);
+    all.back().allowed_closing = std::min(all.back().allowed_closing, wanted.allowed_closing);
+}
+
+/// Finds what keeps the bodies of a pair apart and what it does not have yet: contacts that would be found with the
+/// velocities of now, and those of the places where the bodies overlap in the end all the same, since they turn other
+/// sides to each other. A contact that the pair has in such a place is tightened.
+/// @param n index of the pair @param known its contacts @param part out: what was found
+void findMissing(const BodyStorage& bodies, const BodyPair& pair, std::size_t n, const DetectionRange& range,
+                 const PairAhead& ahead, Manifold& manifold, std::span<const Contact> known, FoundContacts& part) {
+    std::vector<FoundContact>& contacts = part.found;
     const std::size_t first = contacts.size();
     collidePair(bodies, pair, range, ahead, manifold, contacts);
     const double size = std::min(bodies.r_max[pair.a], bodies.r_max[pair.b]);
@@ -99,10 +109,16 @@ void findMissing(const BodyStorage& bodies, const BodyPair& pair, const Detectio
             const double apart = (c.point - point).squaredNorm() + size * size * (c.normal - normal).squaredNorm();
             return apart < same_at_end * same_at_end * size * size;
         };
-        if (std::ranges::any_of(known, isSame)) return;
-        if (std::ranges::any_of(std::span(contacts).subspan(first), isSame)) return;
         const double gap = std::max(0.0, distance);
-        appendTightly(contacts, {pair.a, pair.b, point, normal, gap, allowed_overlap, gap / range.foresight.time});
+        const double closing = gap / range.foresight.time;
+        const auto same = std::ranges::find_if(known, isSame);
+        if (same != known.end()) {
+            const auto place = static_cast<std::uint32_t>(same - known.begin());
+            tighten({n, place, closing}, same->allowed_closing, part.tightened);
+            return;
+        }
+        if (std::ranges::any_of(std::span(contacts).subspan(first), isSame)) return;
+        appendTightly(contacts, {pair.a, pair.b, point, normal, gap, allowed_overlap, closing});
     });
 }
 
@@ -172,7 +188,8 @@ void PairTable::followStruck(const PairsInput& input, double fastest, std::vecto
     neighbours_.update({input.bodies.kind, bounds_, input.bodies.v, unmoved_}, input.broad_phase, input.executor);
     for (FoundContacts& part : parts_) part.clear();
     forParts(input.executor, [&](FoundContacts& part) { followPairs(input, range, contacts, part); });
-    if (std::ranges::all_of(parts_, [](const FoundContacts& part) { return part.grown.empty(); })) return;
+    const auto hasNothing = [](const FoundContacts& part) { return part.grown.empty() && part.tightened.empty(); };
+    if (std::ranges::all_of(parts_, hasNothing)) return;
     forParts(input.executor, [&](FoundContacts& part) { addGrown(part); });
     addFirst(input.executor);
     for (const FoundContacts& part : parts_) {
@@ -183,6 +200,14 @@ void PairTable::followStruck(const PairsInput& input, double fastest, std::vecto
     }
     joiner_.join(input.bodies, input.materials, input.executor, parts_, contacts);
     ++layout_;
+    for (const FoundContacts& part : parts_) {
+        for (const FoundContacts::Tightened& tightened : part.tightened) {
+            const std::uint32_t i = pairs()[tightened.pair].first + tightened.place;
+            contacts[i].allowed_closing = tightened.allowed_closing;
+            added.push_back(i);
+        }
+    }
+    std::ranges::sort(added);
 }
 
 void PairTable::adopt(std::span<const Contact> contacts) {
@@ -316,7 +341,7 @@ void PairTable::followPairs(const PairsInput& input, const DetectionRange& range
         if (!mayTouch(bodies, input.excluded, pair)) continue;
         const auto known = pair.touches() ? contacts.subspan(pair.first, pair.count) : std::span<const Contact>();
         const std::size_t begin = part.found.size();
-        findMissing(bodies, pair, range, {bodies, range, pair, ahead_}, manifold, known, part.found);
+        findMissing(bodies, pair, n, range, {bodies, range, pair, ahead_}, manifold, known, part);
         if (part.found.size() == begin) continue;
         part.grown.push_back({n, static_cast<std::uint32_t>(part.found.size() - begin)});
     }

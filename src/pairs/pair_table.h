@@ -51,10 +51,11 @@ class PairTable {
     void detect(const PairsInput& input, std::vector<Contact>& contacts);
 
     /// Finds the contacts that nobody foresaw, since a body of theirs was struck by the resolution, and adds them
-    /// behind those of their pairs. @pre detect() was the last call, and it looked ahead
+    /// behind those of their pairs; contacts that would not keep their bodies apart after all are tightened. @pre
+    /// detect() was the last call, and it looked ahead
     /// @param fastest bodies are followed as far as this speed leads them [m/s] @param contacts with impulses, which
     /// they
-    ///        keep @param added out: indices of the new ones, ascending
+    ///        keep @param added out: indices of the new and the tightened ones, ascending
     void followStruck(const PairsInput& input, double fastest, std::vector<Contact>& contacts,
                       std::vector<std::uint32_t>& added);
 

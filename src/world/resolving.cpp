@@ -11,11 +11,13 @@ namespace cairn {
 
 namespace {
 
-/// Most times that bodies are looked ahead for once more: each takes an impact that follows from the last one.
-constexpr int most_follows = 4;
+/// Most times that bodies are looked ahead for once more: each takes an impact that follows from the last one. It ends
+/// by itself after two or three as a rule.
+constexpr int most_follows = 16;
 
-/// How many contacts away from an added one bodies are resolved with all their contacts.
-constexpr int follow_reach = 2;
+/// How many contacts away from an added one bodies are resolved with all their contacts: farther where contacts push
+/// and have not bounced, since what has bounced is not undone.
+constexpr int near_reach = 2, far_reach = 4;
 
 /// What of the batches is left out because it sleeps.
 Selecting selectingOf(const WorldState& world) {
@@ -123,8 +125,11 @@ void resolveFollowed(WorldState& world, BodyState& bodies) {
     StepData& data = world.data;
     applyPairLaws(world, bodies, data.added);
     listContacts(world.bodies.kind, data.contacts, data.contacts_of);
+    const auto leads = [&](const Contact& contact) {
+        return contact.normal.dot(contact.impulse) > 0 && !hasBounced(contact, bodies, world.settings.resolution);
+    };
     data.surroundings.find({world.bodies.kind, data.contacts, data.contacts_of, data.jointed}, data.added,
-                           follow_reach);
+                           {near_reach, far_reach, leads});
     resolveAgain(world, bodies, data.surroundings.groups());
 }
 

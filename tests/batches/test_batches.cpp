@@ -309,8 +309,9 @@ struct Line {
     Surroundings surroundings;
 
     Line() { listContacts(kind, contacts, of_bodies); }
-    void find(std::vector<std::uint32_t> seeds, int reach, std::vector<std::uint8_t> excluded = {}) {
-        surroundings.find({kind, contacts, of_bodies, excluded}, seeds, reach);
+    void find(std::vector<std::uint32_t> seeds, int near, std::vector<std::uint8_t> excluded = {}, int far = 0) {
+        const auto pushes = [](const Contact& contact) { return contact.impulse.x() > 0; };
+        surroundings.find({kind, contacts, of_bodies, excluded}, seeds, {near, std::max(near, far), pushes});
     }
     std::vector<BodyIndex> bodies(std::size_t group) const {
         const auto some = surroundings.groups()[group].bodies;
@@ -331,6 +332,18 @@ TEST(Surroundings, HoldAllContactsOfTheBodiesWithinReach) {
     line.find({2}, 2);
     EXPECT_EQ(line.bodies(0), (std::vector<BodyIndex>{0, 1, 2, 3, 4}));
     EXPECT_EQ(line.contactsOf(0), (std::vector<std::uint32_t>{0, 1, 2, 3, 4}));
+}
+
+TEST(Surroundings, ReachFartherOnlyWhereContactsLead) {
+    Line line;
+    line.contacts[4].impulse = Vec3(1, 0, 0);  // of 3 and 4
+    line.find({2}, 1, {}, 3);
+    EXPECT_EQ(line.bodies(0), (std::vector<BodyIndex>{0, 1, 2, 3}));
+    line.contacts[3].impulse = Vec3(1, 0, 0);  // of 2 and 3
+    line.find({2}, 1, {}, 2);
+    EXPECT_EQ(line.bodies(0), (std::vector<BodyIndex>{0, 1, 2, 3, 4}));
+    line.find({2}, 1, {}, 3);
+    EXPECT_EQ(line.bodies(0), (std::vector<BodyIndex>{0, 1, 2, 3, 4, 5}));
 }
 
 TEST(Surroundings, AreGroupsThatShareNoBodyThatMoves) {

@@ -48,7 +48,9 @@ TEST_F(CommandLine, aKilledRunGoesOnFromItsLastCheckpoint) {
 }
 
 TEST_F(CommandLine, anInterruptedRunSaysHowToGoOn) {
-    Program run(folder(), {"run", "wall:20", "--duration", "500", "--quiet", "--checkpoint", "every=1000s,file=w"});
+    // A wall that slept would be at the end by then.
+    Program run(folder(), {"run", "wall:20", "--set", "sleeping=false", "--duration", "500", "--quiet", "--checkpoint",
+                           "every=1000s,file=w"});
     for (int i = 0; i < 2000 && !std::filesystem::exists(file("w")); ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
