@@ -261,6 +261,34 @@ TEST(ForeseenContacts, TheSideThatAnImpactTurnsDownStopsAtTheFloor) {
     }
 }
 
+/// Bodies in layers of nine, thrown onto the floor of a pit by most of their size in a step.
+double deepestOfThrown(const Shape& shape, double size, double speed) {
+    Scene scene;
+    scene.world.setSettings(Settings::preset(Preset::performance, 480));
+    for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)}) {
+        scene.world.addBody(
+            fixedAt(HalfSpace{normal, 0}, normal.z() > 0 ? Vec3(0, 0, 0) : Vec3(-1.85 * size * normal)));
+    }
+    for (int i = 0; i < 90; ++i) {
+        const Vec3 place(i % 3 - 1 + 0.012 * (i % 7 - 3), i / 3 % 3 - 1 + 0.02 * (i % 5 - 2), 1 + i / 9);
+        BodyDescription d = at(shape, 1.1 * size * place, Vec3(0, 0, -speed));
+        d.pose.orientation = Quat(Eigen::AngleAxisd(0.7 * i, Vec3(1, 0.1 * i, 0.5).normalized()));
+        scene.world.addBody(d);
+    }
+    double deepest = 0;
+    for (int i = 0; i < 120; ++i) {
+        scene.world.step();
+        deepest = std::min(deepest, scene.deepest());
+    }
+    return -deepest;
+}
+
+TEST(ForeseenContacts, WhatIsThrownIntoAPitDoesNotGetFarIntoEachOther) {
+    EXPECT_LT(deepestOfThrown(Sphere{0.05}, 0.1, 40), 0.1 * 0.1) << "balls";
+    EXPECT_LT(deepestOfThrown(Cylinder{0.035, 0.07}, 0.1, 20), 0.1 * 0.07) << "cylinders";
+    EXPECT_LT(deepestOfThrown(Capsule{0.02, 0.06}, 0.1, 20), 0.1 * 0.04) << "rods";
+}
+
 TEST(ForeseenContacts, AWorldThatIsRestoredGoesOnBitByBit) {
     Scene scene;
     scene.world.addBody(fixedAt(HalfSpace{}, Vec3::Zero()));

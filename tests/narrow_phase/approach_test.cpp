@@ -1,0 +1,41 @@
+/// When shapes that move would overlap.
+#include "narrow_phase/approach.h"
+
+#include "narrow_phase/manifold_check.h"
+
+namespace cairn::testing {
+namespace {
+
+constexpr double depth = 0.01;
+
+MovingShape moving(const Shape& shape, const Vec3& place, const Vec3& v, const Vec3& w = Vec3::Zero()) {
+    return {.shape = shape, .pose = at(place), .centre = place, .v = v, .w = w, .turning = w.norm()};
+}
+
+TEST(TimeOfOverlap, IsWhenTheDepthIsReached) {
+    const Shape ball = Sphere{0.5};
+    const MovingShape one = moving(ball, Vec3(3, 0, 0), Vec3(-10, 0, 0));
+    const MovingShape other = moving(ball, Vec3(0, 0, 0), Vec3(10, 0, 0));
+    const auto met = timeOfOverlap(one, other, 1, depth);
+    ASSERT_TRUE(met.has_value());
+    EXPECT_NEAR(*met, (2 + depth) / 20, 1e-3 * depth);
+    EXPECT_FALSE(timeOfOverlap(one, other, 0.1, depth).has_value()) << "not before the step ends";
+    EXPECT_EQ(timeOfOverlap(moving(ball, Vec3(0.5, 0, 0), Vec3::Zero()), other, 1, depth), 0) << "from the beginning";
+}
+
+TEST(TimeOfOverlap, IsNoneForThosePassingByAndFoundForThoseThatArePastEachOtherInTheEnd) {
+    const Shape rod = Capsule{0.1, 2};
+    const Shape ball = Sphere{0.1};
+    // The rod lies along z, and its upper end turns to x.
+    const MovingShape turning = moving(rod, Vec3::Zero(), Vec3::Zero(), Vec3(0, 4, 0));
+    EXPECT_TRUE(timeOfOverlap(turning, moving(ball, Vec3(0.7, 0, 0.7), Vec3::Zero()), 0.5, depth).has_value());
+    EXPECT_FALSE(timeOfOverlap(turning, moving(ball, Vec3(0.7, 0.3, 0.7), Vec3::Zero()), 0.5, depth).has_value());
+    EXPECT_FALSE(timeOfOverlap(turning, moving(ball, Vec3(-0.7, 0, 0.7), Vec3::Zero()), 0.5, depth).has_value());
+    const MovingShape still = moving(rod, Vec3::Zero(), Vec3::Zero());
+    const auto through = timeOfOverlap(still, moving(ball, Vec3(5, 0, 0.3), Vec3(-20, 0, 0)), 0.5, depth);
+    ASSERT_TRUE(through.has_value());
+    EXPECT_NEAR(*through, (5 - 0.2 + depth) / 20, 1e-3 * depth) << "the ball is far behind it at the end";
+}
+
+}  // namespace
+}  // namespace cairn::testing
