@@ -67,7 +67,7 @@ std::span<const DiagnosticsField> diagnosticsFields();
 
 /// Counters of one time step, or sums (counters, times) and extremes (overlap) over several.
 struct Statistics {
-    std::array<double, stage_count> stage_ms{};  ///< wall time per stage [ms]
+    std::array<double, stage_count> stage_ms{};  ///< wall time per stage [ms]; 0 in a step that changes nothing
     std::int64_t contacts = 0;
     std::int64_t penetrating_contacts = 0;  ///< deeper than the penetration threshold
     std::int64_t corrected_contacts = 0;    ///< of these, brought back within the threshold

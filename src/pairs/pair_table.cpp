@@ -286,12 +286,13 @@ void PairTable::findBounds(const PairsInput& input) {
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
             // What is awake may have been stopped or pushed since.
             const bool same = range_.foresight.time == 0 || (bodies.asleep[i] != 0 && ahead_[i].reach == 0);
-            settled_[i] = unmoved_[i];
+            settled_[i] = asks_all_ ? 0 : unmoved_[i];
             if (bodies.kind[i] == BodyKind::hole || (unmoved_[i] != 0 && same)) continue;
             bounds_[i] = searchedBounds(bodies, range_, i, ahead_[i]);
             if (ahead_[i].reach > 0) settled_[i] = 0;
         }
     });
+    asks_all_ = false;
 }
 
 /// Divides the pairs into parts, one per thread. @param work called with a part
@@ -375,7 +376,7 @@ void PairTable::detectPair(const PairsInput& input, std::span<const Contact> las
         if (pair.ahead) pair.ahead = false;
         return;
     }
-    if (!mayTouch(input.bodies, input.excluded, pair)) {
+    if (!settled && !mayTouch(input.bodies, input.excluded, pair)) {
         pair.count = ContactPair::untested;
         return;
     }

@@ -59,6 +59,8 @@ class PairTable {
     void followStruck(const PairsInput& input, double fastest, std::vector<Contact>& contacts,
                       std::vector<std::uint32_t>& added);
 
+    /// To be called when it may be that other bodies are kept apart than before: all pairs are asked in the next step.
+    void askAll() { asks_all_ = true; }
     /// To be called when contacts would be others though no body moved: all are found anew.
     void forgetContacts() { known_ = false; }
     /// To be called when bodies and contacts are others: all pairs are those of the contacts.
@@ -96,10 +98,11 @@ class PairTable {
     NeighbourList neighbours_;
     std::vector<std::uint8_t> others_;   ///< [slots] 1 = its body was removed since the last step
     bool known_ = false;                 ///< the contacts are those of the last detection
+    bool asks_all_ = false;              ///< no pair is settled
     DetectionRange range_;               ///< of the last detection
     std::vector<BodyAhead> ahead_;       ///< [slots]
     std::vector<std::uint8_t> unmoved_;  ///< [slots] 1 = contacts with others of these are known
-    std::vector<std::uint8_t> settled_;  ///< [slots] 1 = unmoved, and not looked ahead for
+    std::vector<std::uint8_t> settled_;  ///< [slots] 1 = unmoved, not looked ahead for, and no call since
     std::vector<std::uint8_t> struck_;   ///< [slots] 1 = the resolution sent it elsewhere than foreseen
     std::vector<Bounds> bounds_;         ///< [slots]
     std::vector<FoundContacts> parts_;   ///< [threads]

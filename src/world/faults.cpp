@@ -52,7 +52,8 @@ void fixNonFinite(WorldState& world) {
     BodyStorage& bodies = world.bodies;
     const std::size_t known = world.faults.size();
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (bodies.kind[i] != BodyKind::dynamic || isSound(bodies, i)) continue;
+        // Nothing changes who sleeps.
+        if (bodies.kind[i] != BodyKind::dynamic || bodies.asleep[i] != 0 || isSound(bodies, i)) continue;
         world.lasting.reset();
         world.faults.push_back({.body = bodies.idOf(i), .step = world.steps, .what = describe(bodies, i)});
         if (!bodies.position[i].allFinite()) bodies.position[i].setZero();

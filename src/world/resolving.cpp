@@ -199,7 +199,9 @@ void resolveContacts(WorldState& world, BodyState& bodies, const PairsInput& pai
 void findBounced(const WorldState& world, const BodyState& bodies, VelocitiesBefore& before) {
     const ResolutionSettings& settings = world.settings.resolution;
     const double slowest = settings.restitution_threshold * settings.restitution_threshold;
+    const auto isStill = [&](BodyIndex i) { return bodies.isFixed(i) || bodies.asleep[i] != 0; };
     for (const Contact& contact : world.data.contacts) {
+        if (isStill(contact.a) && isStill(contact.b)) continue;
         const double kept = contact.restitution * contact.restitution;
         for (const BodyIndex i : {contact.a, contact.b}) {
             if (bodies.isFixed(i)) continue;

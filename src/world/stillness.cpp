@@ -36,6 +36,7 @@ void countStillSteps(WorldState& world) {
 void beginChange(WorldState& world, std::string_view call) {
     requireWhole(world, call);
     world.still_steps = 0;
+    world.data.pairs.askAll();
 }
 
 }  // namespace cairn
