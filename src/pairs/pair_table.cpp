@@ -157,6 +157,10 @@ void PairTable::beginStep(const BodyStorage& bodies, std::span<const std::uint32
 
 void PairTable::detect(const PairsInput& input, std::vector<Contact>& contacts) {
     BodyStorage& bodies = input.bodies;
+    if (!std::ranges::equal(excluded_, input.excluded)) {
+        excluded_.assign(input.excluded.begin(), input.excluded.end());
+        askAll();
+    }
     findUnmoved(input);
     findBounds(input);
     parts_.resize(static_cast<std::size_t>(input.executor.threads()));

@@ -59,7 +59,7 @@ class PairTable {
     void followStruck(const PairsInput& input, double fastest, std::vector<Contact>& contacts,
                       std::vector<std::uint32_t>& added);
 
-    /// To be called when it may be that other bodies are kept apart than before: all pairs are asked in the next step.
+    /// To be called when filters may keep other bodies apart than before: all pairs are asked in the next step.
     void askAll() { asks_all_ = true; }
     /// To be called when contacts would be others though no body moved: all are found anew.
     void forgetContacts() { known_ = false; }
@@ -106,6 +106,7 @@ class PairTable {
     std::vector<std::uint8_t> struck_;   ///< [slots] 1 = the resolution sent it elsewhere than foreseen
     std::vector<Bounds> bounds_;         ///< [slots]
     std::vector<FoundContacts> parts_;   ///< [threads]
+    std::vector<BodyPair> excluded_;     ///< in the last detection
     ContactJoiner joiner_;
     std::uint64_t layout_ = 1;
     std::vector<BodyIndex> came_;             ///< since the last detection
