@@ -11,8 +11,7 @@ namespace cairn {
 
 namespace {
 
-/// Most times that bodies are looked ahead for once more: each takes an impact that follows from the last one. It ends
-/// by itself after two or three as a rule.
+/// Most times that bodies are looked ahead for once more: each takes an impact that follows from the last one.
 constexpr int most_follows = 16;
 
 /// How many contacts away from an added one bodies are resolved with all their contacts: farther where contacts push
@@ -199,9 +198,9 @@ void resolveContacts(WorldState& world, BodyState& bodies, const PairsInput& pai
 void findBounced(const WorldState& world, const BodyState& bodies, VelocitiesBefore& before) {
     const ResolutionSettings& settings = world.settings.resolution;
     const double slowest = settings.restitution_threshold * settings.restitution_threshold;
-    const auto isStill = [&](BodyIndex i) { return bodies.isFixed(i) || bodies.asleep[i] != 0; };
+    const auto rests = [&](BodyIndex i) { return bodies.isFixed(i) || bodies.asleep[i] != 0; };
     for (const Contact& contact : world.data.contacts) {
-        if (isStill(contact.a) && isStill(contact.b)) continue;
+        if (rests(contact.a) && rests(contact.b)) continue;
         const double kept = contact.restitution * contact.restitution;
         for (const BodyIndex i : {contact.a, contact.b}) {
             if (bodies.isFixed(i)) continue;

@@ -86,7 +86,7 @@ class Sources(Tree):
         self.finds(sources, "src/world/a.cpp:1", "docs/a.md:1")
 
     def test_relative_paths_are_fine(self):
-        self.put("docs/a.md", "src/work/a.h and https://example.org/" + "home/page\n")
+        self.put("docs/a.md", "src/" + "work/a.h and https://example.org/" + "home/page\n")
         self.finds(sources)
 
 
