@@ -150,7 +150,8 @@ Poured pour(const Pile& pile, const Settings& settings) {
         grains.push_back(makeGrain(pile.shape, size, i, random));
     }
     PairProperties pair = contactLaw(pile.restitution, pile.friction);
-    if (pile.isRound() && pile.friction > 0) pair.rolling_friction = 0.01 * pile.extent;
+    // Without the one it would roll for ever, without the other spin about where it touches.
+    if (pile.isRound() && pile.friction > 0) pair.rolling_friction = pair.spinning_friction = 0.01 * pile.extent;
     Poured poured{makeWorld(settings, Vec3(0, 0, -g), pair), {}, {}, pitWidth(pile, grains), 0};
     addPlane(poured.world);
     for (const Vec3& inwards : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)}) {

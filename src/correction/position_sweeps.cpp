@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "math/rotation.h"
 
@@ -14,7 +15,10 @@ namespace {
 constexpr int usual_sweeps = 3;
 /// And so many as long as a sweep still finds contacts deeper than a multiple of the threshold, as in impacts.
 constexpr int most_sweeps = 20;
-constexpr double deep_multiple = 2;
+constexpr double deep_multiple = 1.3;
+/// From this sweep on both bodies of a contact move by the same. A light body between heavy ones has nowhere to go, and
+/// by inverse masses it would be pushed to and fro for as many sweeps as it is lighter.
+constexpr int first_even_sweep = 6;
 /// What is far too deep is left so deep in one step: pushes apart of all of it would drive others into each other,
 /// which this step does not see.
 constexpr double left_of_deep = 0.5;
@@ -22,6 +26,12 @@ constexpr double left_of_deep = 0.5;
 /// Whether an impulse may change the velocity of a body or finds a fixed one: not of one that is held still.
 bool mayReceive(const BodyState& bodies, BodyIndex i) {
     return bodies.isFixed(i) || bodies.asleep[i] == 0;
+}
+
+/// How many times as far as the other the lighter body of a contact may move in a sweep, counted from 1.
+double largestRatio(int sweep) {
+    if (sweep <= usual_sweeps) return std::numeric_limits<double>::infinity();
+    return std::ldexp(1.0, std::max(0, first_even_sweep - sweep));
 }
 
 }  // namespace
@@ -34,7 +44,7 @@ CorrectionCounts PositionSweeps::correct(const BatchView& batch, const ContactsO
     if (counts.penetrating == 0) return counts;
     gather(batch, contacts, bodies);
     for (int i = 1; i <= most_sweeps; ++i) {
-        const double deepest = sweep(contacts, bodies, remaining);
+        const double deepest = sweep(contacts, bodies, {remaining, largestRatio(i)});
         if (!(deepest > (i < usual_sweeps ? 1 : deep_multiple))) break;
     }
     for (Overlap& overlap : overlaps_) {
@@ -85,39 +95,45 @@ const PositionSweeps::Levers& PositionSweeps::leversOf(Overlap& overlap, std::sp
     l.turn_b = bodies.inertiaInv_W[contact.b] * l.b;
     l.mass_a = bodies.mass_inv[contact.a];
     l.mass_b = bodies.mass_inv[contact.b];
-    l.k = l.mass_a + l.mass_b + l.turn_a.dot(l.a) + l.turn_b.dot(l.b);
+    l.k_a = l.mass_a + l.turn_a.dot(l.a);
+    l.k_b = l.mass_b + l.turn_b.dot(l.b);
     return l;
 }
 
 /// Visits all contacts forth and back. @return the largest overlap found on the way forth, as a multiple of what is
 /// allowed; 0 if none is too deep
-double PositionSweeps::sweep(std::span<const Contact> contacts, const BodyState& bodies, double remaining) {
+double PositionSweeps::sweep(std::span<const Contact> contacts, const BodyState& bodies, const Push& push) {
     double deepest = 0;
     for (Overlap& overlap : overlaps_) {
-        deepest = std::max(deepest, separate(overlap, contacts, bodies, remaining));
+        deepest = std::max(deepest, separate(overlap, contacts, bodies, push));
     }
     if (deepest == 0) return 0;
-    for (std::size_t i = overlaps_.size(); i-- > 0;) separate(overlaps_[i], contacts, bodies, remaining);
+    for (std::size_t i = overlaps_.size(); i-- > 0;) separate(overlaps_[i], contacts, bodies, push);
     return deepest;
 }
 
 /// Moves the bodies of one contact apart if it is too deep by now. @return how deep as sweep() says, else 0
 inline double PositionSweeps::separate(Overlap& overlap, std::span<const Contact> contacts, const BodyState& bodies,
-                                       double remaining) {
+                                       const Push& push) {
     Share& a = shares_[overlap.a];
     Share& b = shares_[overlap.b];
     if (!isMoved(overlap) && !(overlap.distance < overlap.threshold)) return 0;
     const Levers& levers = leversOf(overlap, contacts, bodies);
     const double distance = distanceOf(overlap);
-    if (!(distance < overlap.threshold && levers.k > 0 && std::isfinite(levers.k))) return 0;
-    const double goal = std::min(remaining * overlap.threshold, left_of_deep * overlap.distance);
+    const double k = levers.k_a + levers.k_b;
+    if (!(distance < overlap.threshold && k > 0 && std::isfinite(k))) return 0;
+    const double goal = std::min(push.remaining * overlap.threshold, left_of_deep * overlap.distance);
     if (!(distance < goal)) return 0;
-    const double push = (goal - distance) / levers.k;
-    a.displacement += push * levers.mass_a * overlap.normal;
-    a.turn += push * levers.turn_a;
+    // What cannot move leaves all to the other.
+    const bool both = levers.k_a > 0 && levers.k_b > 0;
+    const double part_a = both ? std::min(1.0, push.largest_ratio * levers.k_b / levers.k_a) : 1;
+    const double part_b = both ? std::min(1.0, push.largest_ratio * levers.k_a / levers.k_b) : 1;
+    const double impulse = (goal - distance) / (part_a * levers.k_a + part_b * levers.k_b);
+    a.displacement += part_a * impulse * levers.mass_a * overlap.normal;
+    a.turn += part_a * impulse * levers.turn_a;
     a.moved = a.moved || levers.mass_a > 0;
-    b.displacement -= push * levers.mass_b * overlap.normal;
-    b.turn -= push * levers.turn_b;
+    b.displacement -= part_b * impulse * levers.mass_b * overlap.normal;
+    b.turn -= part_b * impulse * levers.turn_b;
     b.moved = b.moved || levers.mass_b > 0;
     return distance / overlap.threshold;
 }

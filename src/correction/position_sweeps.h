@@ -14,7 +14,8 @@ namespace cairn {
 /// all that moved so far, its bodies move and turn apart as an impulse along the normal would let them, until the part
 /// of that is left that remains; of what is far too deep, half is left for the next steps. So the centre of mass of a
 /// pair stays, a chain of contacts shares what one of them had too much, a body that stands on an edge is turned rather
-/// than lifted, and the cost follows the number of contacts.
+/// than lifted, and the cost follows the number of contacts. What the first sweeps leave too deep, both bodies of a
+/// contact share ever more evenly: light bodies between heavy ones have nowhere to go.
 ///
 /// What this lifts is paid for: the bodies that gained potential energy are owed by the motion along the normals of
 /// their contacts. Each contact in turn gives what it has and they still owe, by an equal and opposite impulse that
@@ -45,7 +46,13 @@ class PositionSweeps final : public Correction {
         Vec3 turn_b;        ///< likewise of B
         double mass_a = 0;  ///< inverse mass of A [1/kg]
         double mass_b = 0;  ///< likewise of B
-        double k = 0;       ///< what a unit push along the normal changes of the distance [1/kg]
+        double k_a = 0;     ///< what a unit push on A along the normal changes of the distance [1/kg]
+        double k_b = 0;     ///< likewise on B
+    };
+    /// How a sweep pushes.
+    struct Push {
+        double remaining;      ///< part of the threshold that is left
+        double largest_ratio;  ///< of the ways of the two bodies, infinite = by inverse masses
     };
     /// What happens to a body.
     struct Share {
@@ -58,8 +65,8 @@ class PositionSweeps final : public Correction {
     void gather(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies);
     bool isMoved(const Overlap& overlap) const { return shares_[overlap.a].moved || shares_[overlap.b].moved; }
     const Levers& leversOf(Overlap& overlap, std::span<const Contact> contacts, const BodyState& bodies);
-    double sweep(std::span<const Contact> contacts, const BodyState& bodies, double remaining);
-    double separate(Overlap& overlap, std::span<const Contact> contacts, const BodyState& bodies, double remaining);
+    double sweep(std::span<const Contact> contacts, const BodyState& bodies, const Push& push);
+    double separate(Overlap& overlap, std::span<const Contact> contacts, const BodyState& bodies, const Push& push);
     double distanceOf(const Overlap& overlap) const;
     std::int64_t displace(const BatchView& batch, const BodyState& bodies);
     void pay(std::span<const Contact> contacts, const BodyState& bodies);

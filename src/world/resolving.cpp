@@ -1,6 +1,7 @@
 #include "world/resolving.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "batches/batch_motion.h"
 #include "world/checks.h"
@@ -11,10 +12,16 @@ namespace cairn {
 
 namespace {
 
-/// Most times that bodies are looked ahead for once more: each takes an impact that follows from the last one.
-constexpr int most_follows = 16;
+/// Most times that a step is looked through for what its resolution left: each takes an impact that follows from the
+/// last one, or goes on with sweeps that were not enough.
+constexpr int most_follows = 64;
 
-/// How many contacts away from an added one bodies are resolved with all their contacts: farther where contacts push
+/// A round helps a pair if it leaves it closing by less than this part of the least so far. After so many rounds that
+/// did not it is given up in this step.
+constexpr double worthwhile = 0.99;
+constexpr int most_useless = 8;
+
+/// How many contacts away from such a one bodies are resolved with all their contacts: farther where contacts push
 /// and have not bounced, since what has bounced is not undone.
 constexpr int near_reach = 2, far_reach = 4;
 
@@ -38,6 +45,13 @@ void resolveChosen(WorldState& world, BodyState& bodies, std::span<const BatchVi
             world.resolution->resolve({data.selection.chosen(), data.contacts, bodies, settings, world.executor}));
     } while (data.selection.widen());
     data.selection.finish();
+}
+
+/// By how much more than allowed the bodies of a contact would overlap when the step ends, with the velocities that
+/// they have [m]; ≤ 0 = by no more.
+double wayTooFar(const Contact& contact, const BodyState& bodies) {
+    const double closing = -normalVelocity(contact, bodies) - contact.allowed_closing;
+    return closing * bodies.time_step - contact.allowed_overlap;
 }
 
 bool bounces(const Contact& contact, const BodyState& bodies, const ResolutionSettings& settings) {
@@ -88,6 +102,7 @@ void finishAgain(StepData& data, const BodyState& bodies, const FollowedGroup& g
     for (std::size_t n = 0; n < resolved.size(); ++n) {
         Contact& contact = data.contacts[group.view.contacts[n]];
         contact.last_impulse = resolved[n].last_impulse;
+        contact.restitution = resolved[n].restitution;
         if (!group.later) continue;
         contact.impulse += resolved[n].impulse;
         contact.angular_impulse += resolved[n].angular_impulse;
@@ -99,17 +114,26 @@ void finishAgain(StepData& data, const BodyState& bodies, const FollowedGroup& g
 /// Resolves groups of contacts once more.
 void resolveAgain(WorldState& world, BodyState& bodies, std::span<const BatchView> groups) {
     StepData& data = world.data;
+    // Where impacts follow each other, what sweeps left closing is the next one.
+    const bool each_bounces = world.settings.resolution.impacts == Impacts::sequential;
     data.followed.clear();
     data.resolved.clear();
     for (const BatchView& view : groups) {
-        const bool later = std::ranges::any_of(view.contacts, [&](std::uint32_t i) {
-            const Contact& contact = data.contacts[i];
+        bool strikes = false;
+        bool bounced = false;
+        for (const std::uint32_t i : view.contacts) {
             const bool added = std::ranges::binary_search(data.added, i);
-            return added ? bounces(contact, bodies, world.settings.resolution)
-                         : hasBounced(contact, bodies, world.settings.resolution);
-        });
-        data.followed.push_back({view, later});
+            const bool struck = added && bounces(data.contacts[i], bodies, world.settings.resolution);
+            strikes = strikes || struck;
+            bounced = bounced || (!added && hasBounced(data.contacts[i], bodies, world.settings.resolution));
+        }
+        data.followed.push_back({view, strikes || bounced});
         beginAgain(data, bodies, data.followed.back());
+        if (!data.followed.back().later || each_bounces) continue;
+        // What sweeps left closing had its bounce.
+        for (const std::uint32_t i : view.contacts) {
+            if (!strikes || std::ranges::binary_search(data.unresolved, i)) data.contacts[i].restitution = 0;
+        }
     }
     resolveChosen(world, bodies, groups);
     std::span<const Contact> resolved = data.resolved;
@@ -119,7 +143,7 @@ void resolveAgain(WorldState& world, BodyState& bodies, std::span<const BatchVie
     }
 }
 
-/// Resolves the surroundings of the contacts that were added. Bodies with joints take no part.
+/// Resolves the surroundings of the contacts that were added or left closing. Bodies with joints take no part.
 void resolveFollowed(WorldState& world, BodyState& bodies) {
     StepData& data = world.data;
     applyPairLaws(world, bodies, data.added);
@@ -127,7 +151,9 @@ void resolveFollowed(WorldState& world, BodyState& bodies) {
     const auto leads = [&](const Contact& contact) {
         return contact.normal.dot(contact.impulse) > 0 && !hasBounced(contact, bodies, world.settings.resolution);
     };
-    data.surroundings.find({world.bodies.kind, data.contacts, data.contacts_of, data.jointed}, data.added,
+    data.seeds.clear();
+    std::ranges::merge(data.added, data.unresolved, std::back_inserter(data.seeds));
+    data.surroundings.find({world.bodies.kind, data.contacts, data.contacts_of, data.jointed}, data.seeds,
                            {near_reach, far_reach, leads});
     resolveAgain(world, bodies, data.surroundings.groups());
 }
@@ -158,16 +184,70 @@ void resolveLaunchedJoints(WorldState& world, BodyState& bodies) {
     for (const BatchView& view : data.launched_views) addJointImpulses(world, view.joints);
 }
 
-/// Looks ahead for struck bodies and resolves their impacts until there is none, or often enough.
-/// @return whether contacts were added
+/// Lists the contacts that would let their bodies overlap too much, in ascending order.
+void listClosing(WorldState& world, const BodyState& bodies, std::vector<std::uint32_t>& list) {
+    StepData& data = world.data;
+    const auto rests = [&](BodyIndex i) { return bodies.isFixed(i) || bodies.asleep[i] != 0; };
+    data.closing.resize(static_cast<std::size_t>(world.executor.threads()));
+    for (std::vector<std::uint32_t>& part : data.closing) part.clear();
+    world.executor.forBlocks(data.contacts.size(), [&](std::size_t begin, std::size_t end, int thread) {
+        std::vector<std::uint32_t>& part = data.closing[static_cast<std::size_t>(thread)];
+        for (std::size_t i = begin; i < end; ++i) {
+            const Contact& contact = data.contacts[i];
+            if (rests(contact.a) && rests(contact.b)) continue;
+            if (wayTooFar(contact, bodies) > 0) part.push_back(static_cast<std::uint32_t>(i));
+        }
+    });
+    list.clear();
+    for (const std::vector<std::uint32_t>& part : data.closing) list.insert(list.end(), part.begin(), part.end());
+    std::ranges::sort(list);
+}
+
+/// Finds the contacts that the resolution left closing, but those that were added since and those that it is no use to
+/// go on with: what presses a body between two that nothing can stop has no solution.
+void findUnresolved(WorldState& world, const BodyState& bodies) {
+    StepData& data = world.data;
+    listClosing(world, bodies, data.unresolved);
+    std::erase_if(data.unresolved, [&](std::uint32_t i) {
+        return std::ranges::binary_search(data.added, i) || hasJoint(data, data.contacts[i]);
+    });
+    data.left_before.swap(data.left_closing);
+    data.left_closing.clear();
+    for (const std::uint32_t i : data.unresolved) {
+        const Contact& contact = data.contacts[i];
+        const BodyPair pair{contact.a, contact.b};
+        if (data.left_closing.empty() || data.left_closing.back().pair != pair) data.left_closing.push_back({pair});
+        data.left_closing.back().way = std::max(data.left_closing.back().way, wayTooFar(contact, bodies));
+    }
+    const auto find = [](std::vector<LeftClosing>& list, const BodyPair& pair) {
+        const auto found = std::ranges::lower_bound(list, pair, {}, &LeftClosing::pair);
+        return found != list.end() && found->pair == pair ? &*found : nullptr;
+    };
+    for (LeftClosing& left : data.left_closing) {
+        const LeftClosing* before = find(data.left_before, left.pair);
+        if (before == nullptr) continue;
+        left.useless = left.way > worthwhile * before->way ? before->useless + 1 : 0;
+        left.way = std::min(left.way, before->way);
+    }
+    std::erase_if(data.unresolved, [&](std::uint32_t i) {
+        return find(data.left_closing, {data.contacts[i].a, data.contacts[i].b})->useless >= most_useless;
+    });
+}
+
+/// Looks ahead for struck bodies and resolves their impacts, and what sweeps left closing, until there is none, or
+/// often enough. @return whether contacts were added
 bool followStruck(WorldState& world, BodyState& bodies, const PairsInput& pairs) {
     StepData& data = world.data;
+    bool any = false;
+    data.left_closing.clear();
     for (int n = 0; n < most_follows; ++n) {
         data.pairs.followStruck(pairs, data.fastest, data.contacts, data.added);
-        if (data.added.empty()) return n > 0;
+        findUnresolved(world, bodies);
+        if (data.added.empty() && data.unresolved.empty()) break;
+        any = any || !data.added.empty();
         resolveFollowed(world, bodies);
     }
-    return true;
+    return any;
 }
 
 }  // namespace
@@ -217,10 +297,9 @@ void resolveLaunched(WorldState& world, BodyState& bodies, const PairsInput& pai
     StepData& data = world.data;
     data.resolution_counts = {};
     data.added.clear();
+    data.unresolved.clear();
     for (std::uint32_t i = 0; i < data.contacts.size(); ++i) {
-        const Contact& contact = data.contacts[i];
-        const double closing = -normalVelocity(contact, bodies) - contact.allowed_closing;
-        if (closing * bodies.time_step > contact.allowed_overlap) data.added.push_back(i);
+        if (wayTooFar(data.contacts[i], bodies) > 0) data.added.push_back(i);
     }
     if (data.added.empty()) return;
     resolveLaunchedJoints(world, bodies);

@@ -75,6 +75,13 @@ struct FollowedGroup {
     bool later;  ///< for an impact that follows the others
 };
 
+/// Two bodies that a resolution left closing.
+struct LeftClosing {
+    BodyPair pair;
+    double way = 0;   ///< by which they would overlap more than allowed, the least of all rounds so far [m]
+    int useless = 0;  ///< rounds that did not help
+};
+
 /// What batches were built of.
 struct BatchedFrom {
     std::uint64_t layout = 0;    ///< PairTable::layout()
@@ -111,7 +118,12 @@ struct StepData {
     std::vector<CorrectionCounts> correction_counts;  ///< correction: [threads]
     ResolutionCounts resolution_counts;               ///< resolution
     std::vector<std::uint32_t> added;                 ///< resolution: contacts that were added, ascending
-    Surroundings surroundings;                        ///< resolution: of these
+    std::vector<std::uint32_t> unresolved;            ///< resolution: those that it left closing, ascending
+    std::vector<std::vector<std::uint32_t>> closing;  ///< resolution: [threads] kept memory
+    std::vector<LeftClosing> left_closing;            ///< resolution: by pair
+    std::vector<LeftClosing> left_before;             ///< resolution: the same, of the round before
+    std::vector<std::uint32_t> seeds;                 ///< resolution: all of both, ascending
+    Surroundings surroundings;                        ///< resolution: of the seeds
     std::vector<FollowedGroup> followed;              ///< resolution: the same, group after group
     std::vector<Contact> resolved;                    ///< resolution: their contacts before it went on
     std::vector<std::uint32_t> launched;              ///< positions: batches of launched jointed bodies, ascending

@@ -104,6 +104,19 @@ TEST(PositionSweeps, MoveThePairByInverseMasses) {
     EXPECT_NEAR(scene.position[heavy].x(), -0.2 * 0.015, 1e-12);
 }
 
+TEST(PositionSweeps, LiftTheHeavyBodyThatPressesALightOneOntoTheFloor) {
+    SweepsScene scene;
+    const BodyIndex floor = scene.addFixed();
+    const BodyIndex light = scene.addBody();
+    const BodyIndex heavy = scene.addBody();
+    scene.mass_inv[heavy] = 1.0 / 8000;
+    scene.inertiaInv_W[heavy] /= 8000;
+    scene.touch(light, floor, up, -0.015);
+    scene.touch(heavy, light, up, -0.015);
+    EXPECT_EQ(scene.run().corrected, 2);
+    EXPECT_GT(scene.position[heavy].z(), SweepsScene::threshold);
+}
+
 TEST(PositionSweeps, PushWhatAPushedBodyGetsTooDeepInto) {
     SweepsScene scene;
     const BodyIndex wall = scene.addFixed();
