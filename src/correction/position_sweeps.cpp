@@ -16,9 +16,10 @@ constexpr int usual_sweeps = 3;
 /// And so many as long as a sweep still finds contacts deeper than a multiple of the threshold, as in impacts.
 constexpr int most_sweeps = 20;
 constexpr double deep_multiple = 1.3;
-/// From this sweep on both bodies of a contact move by the same. A light body between heavy ones has nowhere to go, and
-/// by inverse masses it would be pushed to and fro for as many sweeps as it is lighter.
-constexpr int first_even_sweep = 6;
+/// The lighter body of a contact moves so many times as far as the other at most, after the usual sweeps. Between heavy
+/// ones it has nowhere to go, and by inverse masses it would be pushed to and fro for as many sweeps as it is lighter.
+constexpr double most_uneven = 8;
+constexpr double by_masses = std::numeric_limits<double>::infinity();
 /// What is far too deep is left so deep in one step: pushes apart of all of it would drive others into each other,
 /// which this step does not see.
 constexpr double left_of_deep = 0.5;
@@ -26,12 +27,6 @@ constexpr double left_of_deep = 0.5;
 /// Whether an impulse may change the velocity of a body or finds a fixed one: not of one that is held still.
 bool mayReceive(const BodyState& bodies, BodyIndex i) {
     return bodies.isFixed(i) || bodies.asleep[i] == 0;
-}
-
-/// How many times as far as the other the lighter body of a contact may move in a sweep, counted from 1.
-double largestRatio(int sweep) {
-    if (sweep <= usual_sweeps) return std::numeric_limits<double>::infinity();
-    return std::ldexp(1.0, std::max(0, first_even_sweep - sweep));
 }
 
 }  // namespace
@@ -44,7 +39,7 @@ CorrectionCounts PositionSweeps::correct(const BatchView& batch, const ContactsO
     if (counts.penetrating == 0) return counts;
     gather(batch, contacts, bodies);
     for (int i = 1; i <= most_sweeps; ++i) {
-        const double deepest = sweep(contacts, bodies, {remaining, largestRatio(i)});
+        const double deepest = sweep(contacts, bodies, {remaining, i > usual_sweeps ? most_uneven : by_masses});
         if (!(deepest > (i < usual_sweeps ? 1 : deep_multiple))) break;
     }
     for (Overlap& overlap : overlaps_) {

@@ -14,8 +14,8 @@ namespace cairn {
 /// all that moved so far, its bodies move and turn apart as an impulse along the normal would let them, until the part
 /// of that is left that remains; of what is far too deep, half is left for the next steps. So the centre of mass of a
 /// pair stays, a chain of contacts shares what one of them had too much, a body that stands on an edge is turned rather
-/// than lifted, and the cost follows the number of contacts. What the first sweeps leave too deep, both bodies of a
-/// contact share ever more evenly: light bodies between heavy ones have nowhere to go.
+/// than lifted, and the cost follows the number of contacts. Of what the first sweeps leave too deep, the heavier
+/// body of a contact takes a larger part: light bodies between heavy ones have nowhere to go.
 ///
 /// What this lifts is paid for: the bodies that gained potential energy are owed by the motion along the normals of
 /// their contacts. Each contact in turn gives what it has and they still owe, by an equal and opposite impulse that

@@ -16,6 +16,9 @@ namespace {
 /// last one, or goes on with sweeps that were not enough.
 constexpr int most_follows = 64;
 
+/// Sweeps go on where bodies would overlap by so much more than allowed, as a part of that.
+constexpr double far_part = 1;
+
 /// A round helps a pair if it leaves it closing by less than this part of the least so far. After so many rounds that
 /// did not it is given up in this step.
 constexpr double worthwhile = 0.99;
@@ -184,7 +187,7 @@ void resolveLaunchedJoints(WorldState& world, BodyState& bodies) {
     for (const BatchView& view : data.launched_views) addJointImpulses(world, view.joints);
 }
 
-/// Lists the contacts that would let their bodies overlap too much, in ascending order.
+/// Lists the contacts that would let their bodies overlap far too much, in ascending order.
 void listClosing(WorldState& world, const BodyState& bodies, std::vector<std::uint32_t>& list) {
     StepData& data = world.data;
     const auto rests = [&](BodyIndex i) { return bodies.isFixed(i) || bodies.asleep[i] != 0; };
@@ -195,7 +198,8 @@ void listClosing(WorldState& world, const BodyState& bodies, std::vector<std::ui
         for (std::size_t i = begin; i < end; ++i) {
             const Contact& contact = data.contacts[i];
             if (rests(contact.a) && rests(contact.b)) continue;
-            if (wayTooFar(contact, bodies) > 0) part.push_back(static_cast<std::uint32_t>(i));
+            if (wayTooFar(contact, bodies) > far_part * contact.allowed_overlap)
+                part.push_back(static_cast<std::uint32_t>(i));
         }
     });
     list.clear();

@@ -113,8 +113,9 @@ TEST(PositionSweeps, LiftTheHeavyBodyThatPressesALightOneOntoTheFloor) {
     scene.inertiaInv_W[heavy] /= 8000;
     scene.touch(light, floor, up, -0.015);
     scene.touch(heavy, light, up, -0.015);
-    EXPECT_EQ(scene.run().corrected, 2);
-    EXPECT_GT(scene.position[heavy].z(), SweepsScene::threshold);
+    scene.run();
+    for (const Contact& contact : scene.contacts) EXPECT_GE(contact.distance, -1.3 * SweepsScene::threshold);
+    EXPECT_GT(scene.position[heavy].z(), 0.004) << "what both have too much";
 }
 
 TEST(PositionSweeps, PushWhatAPushedBodyGetsTooDeepInto) {
