@@ -1349,12 +1349,15 @@ class SleepSettings(_Record):
         """part of gravity taken from bodies slower than ten times sleep_threshold; 0 = off (Algorithm 12)"""
 
 class IntegrationSettings(_Record):
-    """Motion of free bodies."""
+    """Motion of bodies."""
 
-    def __init__(self, exact_flight: bool = ...) -> None: ...
+    def __init__(self, exact_flight: bool = ..., most_parts: int = ...) -> None: ...
     @property
     def exact_flight(self) -> bool:
         """smooth motion follows the mean of a step's velocities, so that free bodies keep to the parabola"""
+    @property
+    def most_parts(self) -> int:
+        """a step is divided into so many parts at most (the next lower power of two) where what touches moves far; 1 = never"""
 
 class ParallelSettings(_Record):
     """Threads; results do not depend on them."""

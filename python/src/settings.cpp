@@ -51,8 +51,9 @@ void bindStages(py::module_& module) {
         .field("damping", &S::damping)
         .finish();
     using I = IntegrationSettings;
-    SettingRecord<I>(module, "IntegrationSettings", "Motion of free bodies.")
+    SettingRecord<I>(module, "IntegrationSettings", "Motion of bodies.")
         .field("exact_flight", &I::exact_flight)
+        .field("most_parts", &I::most_parts)
         .finish();
     using P = ParallelSettings;
     SettingRecord<P>(module, "ParallelSettings", "Threads; results do not depend on them.")

@@ -26,6 +26,9 @@ struct Contact {
     Vec3 reference_impulse = Vec3::Zero();
     Vec3 impulse = Vec3::Zero();          ///< sum of what A received in this step [N·s, W]; B received the opposite
     Vec3 angular_impulse = Vec3::Zero();  ///< of rolling and spinning friction, likewise [N·m·s, W]
+    /// What of both A received in the parts of a divided step before this one; while a part lasts, the two above are
+    /// its own.
+    Vec3 earlier_impulse = Vec3::Zero(), earlier_angular_impulse = Vec3::Zero();
 
     /// Whether the bodies overlap by more than the correction leaves alone (thr_pen). @source thesis §2
     bool isTooDeep() const { return distance < -allowed_overlap; }

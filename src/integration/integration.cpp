@@ -149,6 +149,13 @@ void advanceVelocities(BodyStorage& bodies, const Vec3& acceleration, const Slee
                 }
                 bodies.w[i] += bodies.inertiaInv_W[i] * torque * time_step;
             }
+        }
+    });
+}
+
+void clearForces(BodyStorage& bodies, const Executor& executor) {
+    executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t i = begin; i < end; ++i) {
             if (bodies.kind[i] == BodyKind::hole) continue;
             bodies.force[i].setZero();
             bodies.torque[i].setZero();

@@ -84,9 +84,12 @@ bool isDamped(double squared_motion, const SleepSettings& settings);
 Vec3 accelerationOf(const BodyStorage& bodies, BodyIndex i, const Vec3& acceleration, const SleepSettings& settings);
 
 /// Adds to the velocities of all awake dynamic bodies what the forces give in one step; slow bodies feel only a part of
-/// the global acceleration (Algorithm 12). Clears the one-step forces of all bodies.
+/// the global acceleration (Algorithm 12).
 /// @param acceleration sum of the global accelerations [m/s², W] @param step its number, where addInSteps() is to add
 void advanceVelocities(BodyStorage& bodies, const Vec3& acceleration, const SleepSettings& settings, double time_step,
                        const Executor& executor, std::optional<std::int64_t> step = std::nullopt);
+
+/// Clears the one-step forces of all bodies.
+void clearForces(BodyStorage& bodies, const Executor& executor);
 
 }  // namespace cairn

@@ -81,8 +81,8 @@ struct Joint {
     Vec3 angular_impulse = Vec3::Zero();       ///< on A besides [N·m·s, W]
     Vec3 last_impulse = Vec3::Zero();          ///< that of the step before, during a step: sleepers go on with it
     Vec3 last_angular_impulse = Vec3::Zero();  ///< likewise
-    Vec3 launch_impulse = Vec3::Zero();        ///< of impulse: that of impacts before the flight [N·s, W]
-    Vec3 launch_angular_impulse = Vec3::Zero();  ///< likewise [N·m·s, W]
+    Vec3 booked_impulse = Vec3::Zero();        ///< of impulse: that of before what is measured [N·s, W]
+    Vec3 booked_angular_impulse = Vec3::Zero();  ///< likewise [N·m·s, W]
     Vec3 fixed_impulse = Vec3::Zero();  ///< of couplings: that bodies that cannot move received, and the world [N·s, W]
     Vec3 fixed_angular_impulse = Vec3::Zero();  ///< likewise, about the origin [N·m·s, W]
 };

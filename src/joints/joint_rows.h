@@ -25,6 +25,9 @@ struct BoundRow {
     double impulse = 0;      ///< what it received in this step
     bool is_motor = false;   ///< bounds the rate only, and may give energy
     bool is_linear = false;  ///< as strong as needed in both directions: solved with the rows, not after them
+
+    /// Whether its rates are those that lead to the bounds of the position in time.
+    bool isLimit() const { return strongest == Joint::infinite && softness == 0 && !is_linear; }
 };
 
 /// What a row of a coupling means for one of its bodies: rate = Σ linear·v + angular·ω.

@@ -18,8 +18,6 @@ namespace cairn {
 struct Foresight {
     double time = 0;           ///< of the next time step [s]; 0 = only what touches now is found
     Vec3 fall = Vec3::Zero();  ///< what gravity adds to a velocity before then [m/s, W]
-
-    bool operator==(const Foresight&) const = default;
 };
 
 /// What a detection reports.
@@ -29,7 +27,11 @@ struct DetectionRange {
     double allowed_overlap = 0;  ///< that part, of the smaller body's smallest extent
     Foresight foresight{};
 
-    bool operator==(const DetectionRange&) const = default;
+    /// Whether the other finds the same between bodies that rest.
+    bool looksAlike(const DetectionRange& other) const {
+        return margin == other.margin && threshold == other.threshold && allowed_overlap == other.allowed_overlap &&
+               (foresight.time > 0) == (other.foresight.time > 0);
+    }
     /// For two bodies with these inner radii [m], of which one is finite.
     double overlapOf(double r_min_a, double r_min_b) const {
         return threshold > 0 ? threshold : allowed_overlap * 2 * std::min(r_min_a, r_min_b);

@@ -25,7 +25,9 @@ Contact contactOf(const BodyStorage& bodies, const MaterialTable& materials, con
             .rolling_friction = properties.rolling_friction,
             .spinning_friction = properties.spinning_friction,
             .last_impulse = found.last_impulse,
-            .reference_impulse = found.reference_impulse};
+            .reference_impulse = found.reference_impulse,
+            .earlier_impulse = found.earlier_impulse,
+            .earlier_angular_impulse = found.earlier_angular_impulse};
 }
 
 /// Calls use(run, place of its first contact), in the order of the contacts.

@@ -30,6 +30,8 @@ struct FoundContact {
     double allowed_closing = 0;             ///< Contact::allowed_closing
     Vec3 last_impulse = Vec3::Zero();       ///< Contact::last_impulse
     Vec3 reference_impulse = Vec3::Zero();  ///< Contact::reference_impulse
+    Vec3 earlier_impulse = Vec3::Zero();    ///< Contact::earlier_impulse
+    Vec3 earlier_angular_impulse = Vec3::Zero();
 };
 
 /// What one thread found, in the order of the pairs.

@@ -264,8 +264,10 @@ void PairTable::rearrange(const SlotMove& move) {
 /// Compares every body with where it was detected last.
 void PairTable::findUnmoved(const PairsInput& input) {
     const BodyStorage& bodies = input.bodies;
-    const bool known = known_ && input.range == range_;
-    if (!(input.range == range_)) ahead_.clear();
+    // What nobody moves towards depends on how it is looked for, not on how far ahead.
+    const bool alike = input.range.looksAlike(range_);
+    const bool known = known_ && alike;
+    if (!alike) ahead_.clear();
     range_ = input.range;
     unmoved_.resize(bodies.slots());
     input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {

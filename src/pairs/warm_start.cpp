@@ -25,12 +25,15 @@ class Motion {
 
 }  // namespace
 
-void beginContacts(std::span<Contact> contacts, WarmStart warm_start, const Executor& executor) {
+void beginContacts(std::span<Contact> contacts, const ContactsBegin& begins, const Executor& executor) {
     executor.forBlocks(contacts.size(), [&](std::size_t begin, std::size_t end, int) {
         for (Contact& c : contacts.subspan(begin, end - begin)) {
             // Adding zero turns −0 into +0, as what is inherited is added to zero.
-            c.last_impulse = c.impulse + Vec3::Zero();
-            if (warm_start == WarmStart::off) {
+            c.last_impulse = begins.part * c.impulse + Vec3::Zero();
+            c.reference_impulse *= begins.reference_part;
+            c.earlier_impulse = begins.goes_on ? c.impulse : Vec3::Zero();
+            c.earlier_angular_impulse = begins.goes_on ? c.angular_impulse : Vec3::Zero();
+            if (begins.warm_start == WarmStart::off) {
                 c.last_impulse.setZero();
                 c.reference_impulse.setZero();
             }
@@ -42,7 +45,10 @@ void beginContacts(std::span<Contact> contacts, WarmStart warm_start, const Exec
 }
 
 void inheritImpulses(const BodyStorage& bodies, std::span<const Contact> before, std::span<FoundContact> now) {
-    const auto isIdle = [](const Contact& c) { return c.last_impulse.isZero(0) && c.reference_impulse.isZero(0); };
+    const auto isIdle = [](const Contact& c) {
+        return c.last_impulse.isZero(0) && c.reference_impulse.isZero(0) && c.earlier_impulse.isZero(0) &&
+               c.earlier_angular_impulse.isZero(0);
+    };
     if (now.empty() || std::ranges::all_of(before, isIdle)) return;
     const auto [a, b] = std::pair(before.front().a, before.front().b);
     const Motion with_a(bodies, a);
@@ -68,6 +74,8 @@ void inheritImpulses(const BodyStorage& bodies, std::span<const Contact> before,
         if (heir == nullptr) continue;
         heir->last_impulse += old.last_impulse;
         heir->reference_impulse += old.reference_impulse;
+        heir->earlier_impulse += old.earlier_impulse;
+        heir->earlier_angular_impulse += old.earlier_angular_impulse;
     }
 }
 

@@ -14,8 +14,16 @@ namespace cairn {
 /// Whether contacts begin with the impulses of the last step.
 enum class WarmStart : std::uint8_t { off, on };
 
-/// Makes what the response of the last step left of contacts the beginning of the present one.
-void beginContacts(std::span<Contact> contacts, WarmStart warm_start, const Executor& executor);
+/// What contacts begin a step with, or a part of one.
+struct ContactsBegin {
+    WarmStart warm_start = WarmStart::on;
+    double part = 1;            ///< of the impulses that they have, as they act for a shorter or longer time
+    double reference_part = 1;  ///< of the reference impulses
+    bool goes_on = false;       ///< the impulses are of earlier parts of the same step
+};
+
+/// Makes what the response left of contacts the beginning of what comes.
+void beginContacts(std::span<Contact> contacts, const ContactsBegin& begins, const Executor& executor);
 
 /// Gives every contact of a pair the last_impulse and the reference_impulse of the nearest contact that the pair had,
 /// after that one moved along with either body. Places survive a change of the reference face better than the numbers

@@ -78,8 +78,8 @@ void forChangingMembers(AnyJoint& joint, const Visit& visit) {
     visit(joint.last_impulse);
     visit(joint.last_angular_impulse);
     visit(joint.coupled_impulse);
-    visit(joint.launch_impulse);
-    visit(joint.launch_angular_impulse);
+    visit(joint.booked_impulse);
+    visit(joint.booked_angular_impulse);
     visit(joint.fixed_impulse);
     visit(joint.fixed_angular_impulse);
     for (auto& axis : joint.free) visit(axis.position);

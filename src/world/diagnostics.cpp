@@ -74,8 +74,8 @@ void sumForces(const WorldState& world, MeasuredSums& sums) {
     const BodyStorage& b = world.bodies;
     const MeasuredData& data = world.data.measured;
     const SleepSettings& sleep = world.settings.sleep;
-    const Vec3 step = accelerationOf(world) * world.settings.timeStep();
-    const Vec3 frame_step = world.frame_acceleration * world.settings.timeStep();
+    const Vec3 step = accelerationOf(world) * world.part.length;
+    const Vec3 frame_step = world.frame_acceleration * world.part.length;
     for (BodyIndex i = 0; i < b.slots(); ++i) {
         if (b.kind[i] != BodyKind::dynamic || b.asleep[i] != 0) continue;
         const double work = b.gravity_factor[i] * b.mass[i] * step.dot(0.5 * (data.v[i] + b.v[i]));
@@ -162,8 +162,8 @@ void sumJoints(const WorldState& world, MeasuredSums& sums) {
         if (a_moves == isMovable(b.kind, joint.b)) continue;
         const double sign = a_moves ? 1 : -1;
         const Vec3 anchor = b.position[joint.a] + b.orientation[joint.a] * joint.anchor_a;
-        const Vec3 impulse = joint.impulse - joint.launch_impulse;
-        const Vec3 angular_impulse = joint.angular_impulse - joint.launch_angular_impulse;
+        const Vec3 impulse = joint.impulse - joint.booked_impulse;
+        const Vec3 angular_impulse = joint.angular_impulse - joint.booked_angular_impulse;
         sums.fixed.add(sign * impulse);
         sums.fixed_angular.add(sign * (anchor.cross(impulse) + angular_impulse));
     }
@@ -269,14 +269,14 @@ void account(const MeasuredSums& sums, const StepTotals& last, const StepTotals&
             d.energy_flight += now.energy - last.energy;
             break;
         case Measured::correction:
-            d.energy_correction = now.energy - last.energy;
+            d.energy_correction += now.energy - last.energy;
             // Pairs of bodies pay with equal and opposite impulses: what is left came from fixed bodies.
             d.fixed_impulse += now.momentum - last.momentum;
             break;
         case Measured::forces:
             accountForces(sums, now.kinetic - last.kinetic, d);
-            d.force_impulse = now.momentum - last.momentum;
-            d.force_angular_impulse = now.angular_momentum - last.angular_momentum;
+            d.force_impulse += now.momentum - last.momentum;
+            d.force_angular_impulse += now.angular_momentum - last.angular_momentum;
             break;
         case Measured::damping:
             d.energy_damping += now.kinetic - last.kinetic;

@@ -218,11 +218,9 @@ bool isDealing(const WorldState& world) {
     return world.shared != nullptr && world.shared->isDealing();
 }
 
-bool isSoOnAny(const WorldState& world, bool is_so_here) {
-    if (world.shared == nullptr || world.shared->isWhole()) return is_so_here;
-    const std::vector<std::uint8_t> all =
-        gatherAll(world.shared->ranks(), static_cast<std::uint8_t>(is_so_here ? 1 : 0));
-    return std::ranges::find(all, 1) != all.end();
+int leastOnAny(const WorldState& world, int here) {
+    if (world.shared == nullptr || world.shared->isWhole()) return here;
+    return std::ranges::min(gatherAll(world.shared->ranks(), here));
 }
 
 void requireWhole(const WorldState& world, std::string_view call) {

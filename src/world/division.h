@@ -22,8 +22,8 @@ void unite(WorldState& world);
 /// Whether the bodies that are added to a world now are dealt out to the ranks.
 bool isDealing(const WorldState& world);
 
-/// Whether it is so on any rank that has a part of the world. To be called by all of them.
-bool isSoOnAny(const WorldState& world, bool is_so_here);
+/// The least number that any rank has that has a part of the world. To be called by all of them.
+int leastOnAny(const WorldState& world, int here);
 
 /// @param call that needs all bodies, such as "World::addBody" @throws InputError if the world is divided among ranks
 void requireWhole(const WorldState& world, std::string_view call);

@@ -8,6 +8,7 @@
 #include "activity/sleeping.h"
 #include "joints/joint_kinds.h"
 #include "world/couplings.h"
+#include "world/parts.h"
 
 namespace cairn {
 
@@ -78,8 +79,8 @@ void beginJointImpulses(WorldState& world) {
         joint.last_impulse = std::exchange(joint.impulse, Vec3::Zero());
         joint.last_angular_impulse = std::exchange(joint.angular_impulse, Vec3::Zero());
         joint.coupled_impulse = 0;
-        joint.launch_impulse.setZero();
-        joint.launch_angular_impulse.setZero();
+        joint.booked_impulse.setZero();
+        joint.booked_angular_impulse.setZero();
         joint.fixed_impulse.setZero();
         joint.fixed_angular_impulse.setZero();
     }
@@ -113,6 +114,9 @@ void buildJointBlocks(WorldState& world) {
     data.joint_begin.assign(data.batches.size() + 1, 0);
     data.joint_blocks.resize(groups.joints.size());
     if (groups.size() == 0) return;
+    // Forces act for this part, and limits are reached in the next. What users launched is resolved for that alone.
+    const double time = world.part.units > 0 ? world.part.length : nextPartLength(world);
+    const double ahead = nextPartLength(world) / time;
     const auto batchOfGroup = [&](std::size_t g) { return data.batch_scratch.batch_of_body[groups.bodiesOf(g)[0]]; };
     for (std::size_t g = 0; g < groups.size(); ++g) {
         data.joint_begin[batchOfGroup(g)] += static_cast<std::uint32_t>(groups.jointsOf(g).size());
@@ -123,8 +127,12 @@ void buildJointBlocks(WorldState& world) {
         for (const std::uint32_t slot : groups.jointsOf(g)) {
             JointBlock& block = data.joint_blocks[data.joint_cursor[batchOfGroup(g)]++];
             block.group = static_cast<std::uint32_t>(g);
-            evaluate(world.joints, slot, world.bodies, world.settings.timeStep(), block);
+            evaluate(world.joints, slot, world.bodies, time, block);
             for (BoundRow& bound : block.bound) {
+                if (bound.isLimit() && ahead != 1) {
+                    bound.lowest /= ahead;
+                    bound.highest /= ahead;
+                }
                 const double per_metre = unitOf(block, bound) / block.reach;
                 bound.slowest = world.settings.resolution.restitution_threshold * per_metre;
             }
@@ -148,10 +156,10 @@ void addJointImpulses(WorldState& world, std::span<const JointBlock> blocks) {
     for (const JointBlock& block : blocks) reportImpulses(block, world.bodies, world.joints[block.joint]);
 }
 
-void endLaunch(WorldState& world) {
+void bookJointImpulses(WorldState& world) {
     for (Joint& joint : world.joints) {
-        joint.launch_impulse = joint.impulse;
-        joint.launch_angular_impulse = joint.angular_impulse;
+        joint.booked_impulse = joint.impulse;
+        joint.booked_angular_impulse = joint.angular_impulse;
         joint.fixed_impulse.setZero();
         joint.fixed_angular_impulse.setZero();
     }
@@ -186,6 +194,7 @@ void finishJoints(WorldState& world) {
         }
         joint.redundant = block.redundant;
     }
+    if (!world.part.isLast()) return;
     const double time_step = world.settings.timeStep();
     for (std::uint32_t slot = 0; slot < world.joints.size(); ++slot) {
         if (world.joints[slot].present && isOverloaded(world.joints[slot], time_step)) removeBroken(world, slot);

@@ -25,7 +25,7 @@ void addJointImpulses(WorldState& world, std::span<const JointBlock> blocks);
 
 /// To be called when the impacts before the flight are measured: what joints received there is not to be measured
 /// again.
-void endLaunch(WorldState& world);
+void bookJointImpulses(WorldState& world);
 
 /// A joint supports both its bodies like a contact in the direction of gravity.
 void countJointSupports(const WorldState& world, std::span<std::int32_t> supports);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "batches/batch_motion.h"
+#include "integration/integration.h"
 #include "math/rotation.h"
 
 namespace cairn {
@@ -96,8 +97,18 @@ Vec3 gravityIn(const WorldState& world, std::int64_t steps) {
 }  // namespace
 
 void moveByLaw(WorldState& world) {
+    BodyStorage& b = world.bodies;
     for (const DrivenBody& driven : world.driven) {
-        world.bodies.setShapePose(driven.body, poseAt(driven, timeAfter(world, world.steps)));
+        if (world.part.isLast()) {
+            b.setShapePose(driven.body, poseAt(driven, timeAfter(world, world.steps)));
+            continue;
+        }
+        // Evenly within a step.
+        const BodyIndex i = driven.body;
+        const Pose shape = b.shapeInBody(i);
+        Pose pose{b.position[i] + b.v[i] * world.part.length, b.orientation[i]};
+        if (!b.w[i].isZero(0)) rotateUniformly(pose.orientation, b.w[i], world.part.length);
+        b.setShapePose(i, pose.toOuter(shape));
     }
 }
 
@@ -105,6 +116,7 @@ void advanceLaws(WorldState& world) {
     BodyStorage& b = world.bodies;
     const double step = world.settings.timeStep();
     for (const DrivenBody& driven : world.driven) {
+        if (!world.part.isLast()) break;
         const BodyIndex i = driven.body;
         const Pose next = poseAt(driven, timeAfter(world, world.steps + 1)).toOuter(b.shapeInBody(i).inverse());
         b.v[i] = (next.position - b.position[i]) / step;
@@ -114,7 +126,7 @@ void advanceLaws(WorldState& world) {
     world.data.carried.clear();
     turnSurfaces(world);
     if (isDrivenByLaws(world)) wakeCarried(world);
-    if (world.frame_acceleration.isZero(0)) return;
+    if (world.frame_acceleration.isZero(0) || !world.part.isFirst()) return;
     for (BodyIndex i = 0; i < b.slots(); ++i) {
         if (b.kind[i] == BodyKind::dynamic) b.force[i] += b.mass[i] * world.frame_acceleration;
     }

@@ -55,6 +55,7 @@ void setThesisAlgorithms(Settings& s) {
     s.resolution.impacts = Impacts::of_resolution;
     s.sleep.sleeping = true;
     s.integration.exact_flight = false;
+    s.integration.most_parts = 1;
 }
 
 /// "High performance solver settings". @source thesis §5.1

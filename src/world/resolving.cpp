@@ -274,7 +274,7 @@ void batchContacts(WorldState& world) {
 }
 
 void resolveContacts(WorldState& world, BodyState& bodies, const PairsInput& pairs) {
-    world.data.resolution_counts = {};
+    if (world.part.isFirst()) world.data.resolution_counts = {};
     resolveChosen(world, bodies, world.data.views);
     if (pairs.range.foresight.time > 0 && followStruck(world, bodies, pairs)) batchContacts(world);
 }

@@ -17,8 +17,8 @@ void copyFields(Change change, const BodyArrays& from, BodyArrays& to) {
 template <class Part>
 auto sharedNames(Part& p) {
     return std::tie(p.springs, p.joints, p.gravity, p.gravity_law, p.global_acceleration, p.driven, p.frame, p.steps,
-                    p.steps_at_start, p.time, p.time_at_start, p.launched, p.sized, p.step_exponent, p.statistics,
-                    p.faults);
+                    p.steps_at_start, p.time, p.time_at_start, p.launched, p.next_part, p.sized, p.step_exponent,
+                    p.statistics, p.faults);
 }
 
 std::shared_ptr<const LastingPart> lastingPartOf(const WorldState& world) {

@@ -30,6 +30,7 @@ struct RollbackData {
     std::vector<DrivenBody> driven;
     std::optional<FrameMotion> frame;
     bool launched = false, sized = false;
+    NextPart next_part;
     std::int32_t step_exponent = 0;
     std::int64_t steps = 0, steps_at_start = 0;
     double time = 0, time_at_start = 0;

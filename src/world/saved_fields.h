@@ -96,6 +96,8 @@ void worldFields(Stream& stream, World& world) {
     field(stream, world.steps_at_start);
     field(stream, world.time_at_start);
     field(stream, world.launched);
+    field(stream, world.next_part.units);
+    field(stream, world.next_part.wanted);
     field(stream, world.sized);
     field(stream, world.step_exponent);
 }

@@ -134,6 +134,10 @@ const std::vector<SettingField>& settingTable() {
         plain<&S::integration, &I::exact_flight>(
             "exact_flight", "integration", "", 0, 1,
             "smooth motion follows the mean of a step's velocities, so that free bodies keep to the parabola"),
+        plain<&S::integration, &I::most_parts>(
+            "most_parts", "integration", "", 1, 64,
+            "a step is divided into so many parts at most (the next lower power of two) where what touches moves far; "
+            "1 = never"),
         plain<&S::parallel, &P::threads>("threads", "parallel", "", 1, 1024,
                                          "threads of a step; results do not depend on it"),
         plain<&S::diagnostics, &DiagnosticsSettings::diagnostics>(

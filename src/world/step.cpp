@@ -15,6 +15,7 @@
 #include "world/joints.h"
 #include "world/motions.h"
 #include "world/pair_laws.h"
+#include "world/parts.h"
 #include "world/resolving.h"
 #include "world/sensors.h"
 #include "world/step_statistics.h"
@@ -35,7 +36,7 @@ void timed(WorldState& world, Stage stage, const Work& work) {
     const auto begin = std::chrono::steady_clock::now();
     work();
     const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - begin;
-    world.statistics.stage_ms[index] = passed.count();
+    world.statistics.stage_ms[index] += passed.count();
     help.record(passed.count());
 }
 
@@ -52,10 +53,8 @@ WarmStart warmStart(const WorldState& world) {
 DetectionRange rangeOf(const WorldState& world) {
     const Settings& s = world.settings;
     DetectionRange range{s.detection.contact_margin, s.correction.penetration_threshold, s.correction.allowed_overlap};
-    // Sweeps let bodies come just so close that they touch, rather than fly into or through each other.
-    const bool foresees = s.resolution.resolution == ResolutionKind::accelerated_sweeps &&
-                          s.resolution.restitution_speed == RestitutionSpeed::closing;
-    if (foresees) range.foresight = {s.timeStep(), s.timeStep() * (world.gravity + world.global_acceleration)};
+    const Vec3 acceleration = world.gravity + world.global_acceleration;
+    if (foresees(s)) range.foresight = {nextPartLength(world), world.part.length * acceleration};
     return range;
 }
 
@@ -79,43 +78,46 @@ double fastestNow(WorldState& world) {
     return *std::ranges::max_element(fastest);
 }
 
-/// Begins the detections of a step: what the last one left becomes what the next contacts begin with.
-/// @param flown whether bodies have moved in this step
-void beginDetection(WorldState& world, const DetectionRange& range, bool flown) {
+/// Finds the contacts of a part, which begin with what the last one left. @param begins whether it is the first
+/// detection of the step
+void detect(WorldState& world, bool begins) {
+    const DetectionRange range = rangeOf(world);
     const double speed = range.foresight.time > 0 ? fastestNow(world) : 0;
     // An impact of two bodies gives twice that, to a light body that bounces.
     if (range.foresight.time > 0) world.data.fastest = 2 * speed;
-    settleShared(world, range, speed, flown);
-    world.data.pairs.beginStep(world.bodies, world.data.generation);
-    beginContacts(world.data.contacts, warmStart(world), world.executor);
-}
-
-void detect(WorldState& world, const DetectionRange& range) {
+    settleShared(world, range, speed, world.part.units > 0);
+    if (begins) world.data.pairs.beginStep(world.bodies, world.data.generation);
+    beginContacts(world.data.contacts, contactsBegin(world, warmStart(world)), world.executor);
     world.data.pairs.detect(pairsInput(world, range), world.data.contacts);
+    if (!shortenNextPart(world)) return;
+    const DetectionRange shorter = rangeOf(world);
+    world.data.pairs.detect(pairsInput(world, shorter), world.data.contacts);
 }
 
 /// Velocities that users gave were granted by no resolution: impacts that they would make in this step are resolved
 /// before bodies fly on with them. @return whether the detections of the step have begun
 bool grantLaunched(WorldState& world) {
     if (!std::exchange(world.launched, false)) return false;
-    DetectionRange range = rangeOf(world);
+    // In no time, so that forces act later in the step.
+    world.part = {.units = 0};
+    world.next_part = {};
+    const DetectionRange range = rangeOf(world);
     if (!(range.foresight.time > 0)) return false;
-    // Forces act later in the step.
-    range.foresight.fall.setZero();
     const BodyStorage& b = world.bodies;
     bool any = false;
     for (BodyIndex i = 0; i < b.slots() && !any; ++i) {
         any = b.kind[i] == BodyKind::dynamic && b.asleep[i] == 0 && movesFar(b, range, i, b.v[i], b.w[i]);
     }
-    if (!isSoOnAny(world, any)) return false;
-    beginDetection(world, range, false);
-    detect(world, range);
+    if (leastOnAny(world, any ? 0 : 1) > 0) return false;
+    detect(world, true);
     batchContacts(world);
     BodyState bodies = world.bodies.state();
-    bodies.time_step = world.settings.timeStep();
-    resolveLaunched(world, bodies, pairsInput(world, range));
+    bodies.time_step = nextPartLength(world);
+    const DetectionRange ahead = rangeOf(world);
+    resolveLaunched(world, bodies, pairsInput(world, ahead));
+    shortenNextPart(world);
     measureIfAsked(world, Measured::resolution);
-    endLaunch(world);
+    bookJointImpulses(world);
     for (Contact& contact : world.data.contacts) {
         // The step's own contacts begin with what they had before.
         contact.impulse = contact.last_impulse;
@@ -145,16 +147,17 @@ void correctStage(WorldState& world) {
     StepData& data = world.data;
     const BodyState bodies = world.bodies.state();
     const bool traced = world.trace.tracing == Tracing::on;
-    if (traced) world.trace.correction.assign(world.bodies.position.begin(), world.bodies.position.end());
+    if (traced && world.part.isFirst()) world.trace.correction.assign(bodies.size(), Vec3::Zero());
+    if (traced) {
+        for (std::size_t i = 0; i < bodies.size(); ++i) world.trace.correction[i] -= bodies.position[i];
+    }
     if (world.settings.resolution.restitution_speed == RestitutionSpeed::touching) {
         for (Contact& contact : data.contacts) contact.gap = contact.distance;
     }
-    data.correction_counts.assign(world.corrections.size(), {});
+    if (world.part.isFirst()) data.correction_counts.assign(world.corrections.size(), {});
     correctBatches(world);
     if (!traced) return;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        world.trace.correction[i] = bodies.position[i] - world.trace.correction[i];
-    }
+    for (std::size_t i = 0; i < bodies.size(); ++i) world.trace.correction[i] += bodies.position[i];
 }
 
 void velocityStage(WorldState& world) {
@@ -174,11 +177,13 @@ void velocityStage(WorldState& world) {
     const bool exact = world.settings.integration.exact_flight;
     const bool touching = world.settings.resolution.restitution_speed == RestitutionSpeed::touching;
     if (exact || touching) saveVelocities(world.bodies, world.executor, data.before);
-    advanceVelocities(world.bodies, acceleration, world.settings.sleep, world.settings.timeStep(), world.executor,
-                      exact ? std::optional(world.steps) : std::nullopt);
-    applySprings(world.springs, world.bodies, world.settings.timeStep());
+    const bool whole = world.part.isFirst() && world.part.isLast();
+    advanceVelocities(world.bodies, acceleration, world.settings.sleep, world.part.length, world.executor,
+                      exact && whole ? std::optional(world.steps) : std::nullopt);
+    if (world.part.isLast()) clearForces(world.bodies, world.executor);
+    applySprings(world.springs, world.bodies, world.part.length);
     measureIfAsked(world, Measured::forces);
-    dampVelocities(world.bodies, world.settings.timeStep(), world.executor);
+    dampVelocities(world.bodies, world.part.length, world.executor);
     measureIfAsked(world, Measured::damping);
     fixNonFinite(world);
     if (exact) saveForced(world.bodies, world.executor, data.before);
@@ -187,8 +192,8 @@ void velocityStage(WorldState& world) {
         if (data.carried[i] == Carried::unevenly) data.before.forced[i] = 0;
     }
     if (touching) {
-        saveTouching(world.bodies, world.settings.resolution.restitution_threshold, world.settings.timeStep(),
-                     data.before, data.contacts);
+        saveTouching(world.bodies, world.settings.resolution.restitution_threshold, world.part.length, data.before,
+                     data.contacts);
     }
 }
 
@@ -199,10 +204,10 @@ void resolveStage(WorldState& world) {
         world.trace.shock_stage.assign(bodies.size(), -1);
         bodies.shock_stage = world.trace.shock_stage;
     }
-    bodies.time_step = world.settings.timeStep();
+    bodies.time_step = nextPartLength(world);
     bodies.surface = data.surface;
     const SleepSettings& sleep = world.settings.sleep;
-    bodies.fall = (isDamped(0, sleep) ? 1 - sleep.damping : 1.0) * world.settings.timeStep() *
+    bodies.fall = (isDamped(0, sleep) ? 1 - sleep.damping : 1.0) * world.part.length *
                   (world.gravity + world.global_acceleration);
     applyPairLaws(world, bodies);
     buildJointBlocks(world);
@@ -217,12 +222,13 @@ void resolveStage(WorldState& world) {
     measureIfAsked(world, Measured::resolution);
     if (world.settings.integration.exact_flight) {
         findBounced(world, bodies, data.before);
-        completeSmoothMotion(world.bodies, data.before, data.jointed, world.settings.timeStep(), world.executor);
+        completeSmoothMotion(world.bodies, data.before, data.jointed, world.part.length, world.executor);
     }
     if (world.settings.resolution.restitution_speed == RestitutionSpeed::touching) {
         liftBounced(world.bodies, data.before);
     }
     measureIfAsked(world, Measured::completion);
+    finishPart(world);
 }
 
 /// Bodies that do not fall asleep one by one: jointed ones do it together, and those that gravity does not pull down or
@@ -267,6 +273,33 @@ void repeatStep(WorldState& world) {
     collectEvents(world);
 }
 
+void flyStage(WorldState& world) {
+    const double time = world.part.length;
+    if (world.settings.integration.exact_flight) savePositions(world.bodies, world.executor, world.data.before);
+    const JointFlight::Motion motion{world.settings.integration, world.settings.sleep,
+                                     world.gravity + world.global_acceleration, time, world.data.contacts};
+    world.joint_flight.begin(world.joints, world.data.joint_groups, world.bodies, motion);
+    moveByLaw(world);
+    advancePositions(world.bodies, time, world.executor);
+    world.joint_flight.finish(world.joints, world.data.joint_groups, world.bodies, motion);
+}
+
+/// @param begins whether it has the first detection of the step
+void computePart(WorldState& world, bool begins) {
+    timed(world, Stage::positions, [&] { flyStage(world); });
+    measureIfAsked(world, Measured::positions);
+    timed(world, Stage::detection, [&] {
+        chooseNextPart(world);
+        detect(world, begins);
+        if (world.part.isLast()) findSensed(world);
+    });
+    timed(world, Stage::batches, [&] { batchContacts(world); });
+    timed(world, Stage::correction, [&] { correctStage(world); });
+    measureIfAsked(world, Measured::correction);
+    timed(world, Stage::velocities, [&] { velocityStage(world); });
+    timed(world, Stage::resolution, [&] { resolveStage(world); });
+}
+
 void computeStep(WorldState& world) {
     ++world.places_version;
     world.statistics = {};
@@ -282,35 +315,15 @@ void computeStep(WorldState& world) {
         beginLaws(world);
     });
     measureIfAsked(world, Measured::laws);
-    bool launched = false;
-    timed(world, Stage::positions, [&] {
-        launched = grantLaunched(world);
-        if (world.settings.integration.exact_flight) savePositions(world.bodies, world.executor, world.data.before);
-        const JointFlight::Motion motion{world.settings.integration, world.settings.sleep,
-                                         world.gravity + world.global_acceleration, world.settings.timeStep(),
-                                         world.data.contacts};
-        world.joint_flight.begin(world.joints, world.data.joint_groups, world.bodies, motion);
-        moveByLaw(world);
-        advancePositions(world.bodies, world.settings.timeStep(), world.executor);
-        world.joint_flight.finish(world.joints, world.data.joint_groups, world.bodies, motion);
-    });
-    measureIfAsked(world, Measured::positions);
-    timed(world, Stage::detection, [&] {
-        const DetectionRange range = rangeOf(world);
-        if (launched) {
-            settleShared(world, range, world.shared != nullptr ? fastestNow(world) : 0, true);
-            beginContacts(world.data.contacts, warmStart(world), world.executor);
-        } else {
-            beginDetection(world, range, true);
-        }
-        detect(world, range);
-        findSensed(world);
-    });
-    timed(world, Stage::batches, [&] { batchContacts(world); });
-    timed(world, Stage::correction, [&] { correctStage(world); });
-    measureIfAsked(world, Measured::correction);
-    timed(world, Stage::velocities, [&] { velocityStage(world); });
-    timed(world, Stage::resolution, [&] { resolveStage(world); });
+    bool begun = false;
+    timed(world, Stage::positions, [&] { begun = grantLaunched(world); });
+    int done = 0;
+    do {
+        beginPart(world, done);
+        computePart(world, !begun);
+        begun = true;
+        done += world.part.units;
+    } while (done < step_units);
     timed(world, Stage::sleeping, [&] { sleepStage(world); });
     measureIfAsked(world, Measured::sleep);
     timed(world, Stage::output, [&] { outputStage(world); });

@@ -106,6 +106,7 @@ struct StepData {
     std::vector<BodyPair> excluded;     ///< events: pairs that joints keep from touching, sorted
     std::vector<Sensed> sensed;         ///< detection: by sensor and body
     std::vector<double> fastest_of;     ///< detection: [threads] kept memory
+    std::vector<double> shortest_of;    ///< detection: [threads] kept memory
     double fastest = 0;                 ///< detection: how fast bodies may be that are struck in the step [m/s]
     std::vector<Vec3> surface;          ///< velocities: [slots] of fixed bodies' surfaces [m/s, W]; or empty
     std::vector<Carried> carried;       ///< velocities: [slots] by a moving law that their batch touches; or empty
@@ -154,6 +155,26 @@ struct EventLog {
     std::size_t faults_before = 0;            ///< at the beginning of the step
 };
 
+/// What a step is divided into: parts of a power of two of units each.
+constexpr int step_units = 64;
+
+/// The part of a step that is computed.
+struct StepPart {
+    int units = step_units;
+    int done = 0;             ///< units of the step before this part
+    double length = 0;        ///< [s]
+    int before = step_units;  ///< units of the part before it
+
+    bool isFirst() const { return done == 0; }
+    bool isLast() const { return done + units == step_units; }
+};
+
+/// The part that comes after, for which contacts are foreseen.
+struct NextPart {
+    std::int32_t units = step_units;
+    std::int32_t wanted = step_units;  ///< units that it should have had, wherever steps begin
+};
+
 struct LastingPart;
 
 /// The back of World.
@@ -191,6 +212,8 @@ struct WorldState {
 
     std::vector<double>
         dealt_extents;      ///< middle ones of all bodies that move and were dealt out, until the first step
+    StepPart part;          ///< of the step that is computed
+    NextPart next_part;     ///< after it, or of the next step
     bool launched = false;  ///< a user gave a body a velocity or a place since the last step
     int still_steps = 0;    ///< last steps that everybody slept through, without a call since
     std::int64_t steps = 0;

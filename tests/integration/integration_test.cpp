@@ -96,6 +96,7 @@ TEST(Velocities, ForcesTorquesAndGravityActForOneStep) {
     bodies.constant_torque[i] = Vec3(0, 0, 4);
     const SleepSettings off{.damping = 0};
     advanceVelocities(bodies, Vec3(0, 0, -10), off, 0.1, one_thread);
+    clearForces(bodies, one_thread);
     EXPECT_TRUE(bodies.v[i].isApprox(Vec3(0.2, 0.1, -1)));
     EXPECT_TRUE(bodies.w[i].isApprox(Vec3(0, 0.1, 0.1)));
     advanceVelocities(bodies, Vec3::Zero(), off, 0.1, one_thread);

@@ -31,7 +31,7 @@ TEST(WarmStart, WhatStaysBeginsWithTheImpulsesOfTheLastStep) {
     for (const WarmStart warm_start : {WarmStart::off, WarmStart::on}) {
         std::vector<Contact> contacts = {
             {.a = 0, .b = 1, .reference_impulse = Vec3(5, 0, 0), .impulse = Vec3(3, 0, -0.0), .gap = 1}};
-        beginContacts(contacts, warm_start, Executor());
+        beginContacts(contacts, {warm_start}, Executor());
         const bool on = warm_start == WarmStart::on;
         EXPECT_EQ(contacts[0].last_impulse, on ? Vec3(3, 0, 0) : Vec3(0, 0, 0));
         EXPECT_FALSE(std::signbit(contacts[0].last_impulse.z())) << "as what is inherited";

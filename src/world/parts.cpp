@@ -1,0 +1,142 @@
+#include "world/parts.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "batches/batch_motion.h"
+#include "world/division.h"
+#include "world/joints.h"
+
+namespace cairn {
+
+namespace {
+
+/// Bodies that touch, or are about to, may pass each other by this part of the smaller one's smallest extent between
+/// two detections: by more, what lies ahead is not what was nearest.
+constexpr double most_passed = 0.5;
+
+/// What is fixed to a body where it touches may leave the straight way, since it turns, by this part of that extent:
+/// the bounds of what bodies may overlap at rest and in a fall are 0.02 and 0.1 of it.
+constexpr double most_bent = 0.03;
+
+/// Bodies that overlap by more than this multiple of what they may are corrected so many times in a step: position
+/// sweeps leave 1.3 of it, and more is a sign that contacts were foreseen badly or that weights were not carried.
+constexpr double too_deep = 1.6;
+constexpr double deep_time = 0.5;
+
+double stepLength(const WorldState& world, int units) {
+    return units == step_units ? world.settings.timeStep() : world.settings.timeStep() * units / step_units;
+}
+
+int mostParts(const Settings& settings) {
+    return static_cast<int>(std::bit_floor(static_cast<unsigned>(settings.integration.most_parts)));
+}
+
+bool mayDivide(const Settings& settings) {
+    return foresees(settings) && mostParts(settings) > 1;
+}
+
+/// How a body turns its sides: not about the axis of what is round about it [rad/s, W].
+Vec3 turningOf(const BodyStorage& bodies, BodyIndex i) {
+    const Vec3& w = bodies.w[i];
+    if (w.isZero(0)) return w;
+    const Shape& shape = bodies.shape[i];
+    if (std::holds_alternative<Sphere>(shape) && bodies.p_BS[i].isZero(0)) return Vec3::Zero();
+    if (!std::holds_alternative<Capsule>(shape) && !std::holds_alternative<Cylinder>(shape)) return w;
+    const Vec3 axis = bodies.shapePose(i).orientation * Vec3::UnitZ();
+    return w - w.dot(axis) * axis;
+}
+
+/// How long two bodies may fly before their contact is found anew [s].
+double timeOf(const BodyStorage& bodies, const Contact& contact, double step) {
+    const double extent = 2 * std::min(bodies.r_min[contact.a], bodies.r_min[contact.b]);
+    double time = std::numeric_limits<double>::infinity();
+    if (contact.distance < -too_deep * contact.allowed_overlap) time = deep_time * step;
+    for (const BodyIndex i : {contact.a, contact.b}) {
+        const double bend = turningOf(bodies, i).squaredNorm() * (contact.point - bodies.position[i]).norm() / 2;
+        if (bend > 0) time = std::min(time, std::sqrt(most_bent * extent / bend));
+    }
+    // Along a plane all places are alike.
+    const auto isPlane = [&](BodyIndex i) { return std::holds_alternative<HalfSpace>(bodies.shape[i]); };
+    if (isPlane(contact.a) || isPlane(contact.b)) return time;
+    const double passing = (bodies.v[contact.a] - bodies.v[contact.b]).norm();
+    return passing > 0 ? std::min(time, most_passed * extent / passing) : time;
+}
+
+/// How long the next part may be, by the contacts there are and how their bodies move [units].
+int wantedUnits(WorldState& world) {
+    const BodyState bodies = world.bodies.state();
+    std::vector<double>& shortest = world.data.shortest_of;
+    const double step = world.settings.timeStep();
+    shortest.assign(static_cast<std::size_t>(world.executor.threads()), step);
+    world.executor.forBlocks(world.data.contacts.size(), [&](std::size_t begin, std::size_t end, int thread) {
+        double& least = shortest[static_cast<std::size_t>(thread)];
+        for (std::size_t i = begin; i < end; ++i) {
+            const Contact& contact = world.data.contacts[i];
+            if (isAtRest(bodies, contact.a) && isAtRest(bodies, contact.b)) continue;
+            least = std::min(least, timeOf(world.bodies, contact, step));
+        }
+    });
+    const double time = *std::ranges::min_element(shortest);
+    const int least = step_units / mostParts(world.settings);
+    int units = step_units;
+    while (units > least && stepLength(world, units) > time) units /= 2;
+    return leastOnAny(world, units);
+}
+
+}  // namespace
+
+bool foresees(const Settings& settings) {
+    return settings.resolution.resolution == ResolutionKind::accelerated_sweeps &&
+           settings.resolution.restitution_speed == RestitutionSpeed::closing;
+}
+
+void beginPart(WorldState& world, int done) {
+    world.part = {world.next_part.units, done, stepLength(world, world.next_part.units), world.part.units};
+}
+
+void chooseNextPart(WorldState& world) {
+    if (!mayDivide(world.settings)) world.next_part.wanted = step_units;
+    const int left = step_units - world.part.done - world.part.units;
+    const int longest = left > 0 ? static_cast<int>(std::bit_floor(static_cast<unsigned>(left))) : step_units;
+    world.next_part.units = std::min(longest, world.next_part.wanted);
+}
+
+bool shortenNextPart(WorldState& world) {
+    if (!mayDivide(world.settings)) return false;
+    world.next_part.wanted = wantedUnits(world);
+    if (world.next_part.wanted >= world.next_part.units) return false;
+    world.next_part.units = world.next_part.wanted;
+    return true;
+}
+
+double nextPartLength(const WorldState& world) {
+    return stepLength(world, world.next_part.units);
+}
+
+ContactsBegin contactsBegin(const WorldState& world, WarmStart warm_start) {
+    const StepPart& part = world.part;
+    // What users launched is resolved in no time.
+    if (part.units == 0 || part.units == step_units) return {warm_start};
+    const auto units = static_cast<double>(part.units);
+    if (part.isFirst()) return {warm_start, units / step_units, units / step_units};
+    return {warm_start, units / part.done, units / part.before, true};
+}
+
+void finishPart(WorldState& world) {
+    const StepPart& part = world.part;
+    // What was struck turns and passes otherwise than foreseen.
+    shortenNextPart(world);
+    if (part.units == step_units) return;
+    if (!part.isLast()) bookJointImpulses(world);
+    const double whole = part.isLast() ? static_cast<double>(step_units) / part.units : 1;
+    for (Contact& contact : world.data.contacts) {
+        contact.impulse += contact.earlier_impulse;
+        contact.angular_impulse += contact.earlier_angular_impulse;
+        contact.reference_impulse *= whole;
+    }
+}
+
+}  // namespace cairn
