@@ -57,6 +57,12 @@ double wayTooFar(const Contact& contact, const BodyState& bodies) {
     return closing * bodies.time_step - contact.allowed_overlap;
 }
 
+/// Whether the resolution moves neither body of a contact.
+bool areFixedOrAsleep(const Contact& contact, const BodyState& bodies) {
+    const auto rests = [&](BodyIndex i) { return bodies.isFixed(i) || bodies.asleep[i] != 0; };
+    return rests(contact.a) && rests(contact.b);
+}
+
 bool bounces(const Contact& contact, const BodyState& bodies, const ResolutionSettings& settings) {
     const double closing = -normalVelocity(contact, bodies);
     return contact.restitution > 0 && closing >= settings.restitution_threshold && closing > contact.allowed_closing;
@@ -190,16 +196,15 @@ void resolveLaunchedJoints(WorldState& world, BodyState& bodies) {
 /// Lists the contacts that would let their bodies overlap far too much, in ascending order.
 void listClosing(WorldState& world, const BodyState& bodies, std::vector<std::uint32_t>& list) {
     StepData& data = world.data;
-    const auto rests = [&](BodyIndex i) { return bodies.isFixed(i) || bodies.asleep[i] != 0; };
     data.closing.resize(static_cast<std::size_t>(world.executor.threads()));
     for (std::vector<std::uint32_t>& part : data.closing) part.clear();
     world.executor.forBlocks(data.contacts.size(), [&](std::size_t begin, std::size_t end, int thread) {
         std::vector<std::uint32_t>& part = data.closing[static_cast<std::size_t>(thread)];
         for (std::size_t i = begin; i < end; ++i) {
             const Contact& contact = data.contacts[i];
-            if (rests(contact.a) && rests(contact.b)) continue;
-            if (wayTooFar(contact, bodies) > far_part * contact.allowed_overlap)
-                part.push_back(static_cast<std::uint32_t>(i));
+            if (areFixedOrAsleep(contact, bodies)) continue;
+            if (!(wayTooFar(contact, bodies) > far_part * contact.allowed_overlap)) continue;
+            part.push_back(static_cast<std::uint32_t>(i));
         }
     });
     list.clear();
@@ -282,9 +287,8 @@ void resolveContacts(WorldState& world, BodyState& bodies, const PairsInput& pai
 void findBounced(const WorldState& world, const BodyState& bodies, VelocitiesBefore& before) {
     const ResolutionSettings& settings = world.settings.resolution;
     const double slowest = settings.restitution_threshold * settings.restitution_threshold;
-    const auto rests = [&](BodyIndex i) { return bodies.isFixed(i) || bodies.asleep[i] != 0; };
     for (const Contact& contact : world.data.contacts) {
-        if (rests(contact.a) && rests(contact.b)) continue;
+        if (areFixedOrAsleep(contact, bodies)) continue;
         const double kept = contact.restitution * contact.restitution;
         for (const BodyIndex i : {contact.a, contact.b}) {
             if (bodies.isFixed(i)) continue;

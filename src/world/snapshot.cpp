@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "math/rotation.h"
@@ -327,6 +328,11 @@ void checkWorld(const ByteReader& in, const WorldState& world) {
     const bool sound = world.steps >= 0 && world.steps_at_start >= 0 && world.steps_at_start <= world.steps &&
                        std::isfinite(world.time) && std::isfinite(world.time_at_start);
     if (!sound) in.refuse("a time that no world has");
+    const auto isPart = [](std::int32_t units) {
+        return units > 0 && units <= step_units && std::has_single_bit(static_cast<std::uint32_t>(units));
+    };
+    if (!isPart(world.next_part.units) || !isPart(world.next_part.wanted))
+        in.refuse("a part of a step that no world has");
     if (world.data.generation.size() > world.bodies.slots()) in.refuse("contacts of more bodies than there are");
 }
 
