@@ -265,8 +265,10 @@ void Selection::findDisturbed(const PartOfBatch& part, Scratch& scratch) {
     for (const std::uint32_t c : std::span(part_contacts_).subspan(part.contact_begin, part.contacts)) {
         const Contact& contact = input_->contacts[c];
         const Vec3 difference = contact.impulse - contact.reference_impulse;
-        if (isHeld(contact.a)) disturb(contact.a, difference, contact.point - bodies().position[contact.a], scratch);
-        if (isHeld(contact.b)) disturb(contact.b, -difference, contact.point - bodies().position[contact.b], scratch);
+        if (isHeld(contact.a))
+            disturb(contact.a, difference, contact.pointOn(contact.a) - bodies().position[contact.a], scratch);
+        if (isHeld(contact.b))
+            disturb(contact.b, -difference, contact.pointOn(contact.b) - bodies().position[contact.b], scratch);
     }
     for (const Disturbance& d : scratch.disturbances) {
         const Vec3 v = bodies().mass_inv[d.body] * d.linear;

@@ -31,7 +31,7 @@ inline void saveMotion(std::span<const BodyIndex> saved, const BodyState& bodies
 /// ϑA − ϑB [m/s, W]. @source thesis (3.4.1)
 inline Vec3 relativeVelocity(const Contact& contact, const BodyState& bodies) {
     const auto at = [&](BodyIndex i) -> Vec3 {
-        return bodies.v[i] + bodies.w[i].cross(contact.point - bodies.position[i]) +
+        return bodies.v[i] + bodies.w[i].cross(contact.pointOn(i) - bodies.position[i]) +
                bodies.surfaceVelocity(i, contact.normal);
     };
     return at(contact.a) - at(contact.b);

@@ -11,7 +11,10 @@ namespace cairn {
 struct Contact {
     BodyIndex a = 0;
     BodyIndex b = 0;
-    Vec3 point = Vec3::Zero();    ///< [m, W]
+    Vec3 point = Vec3::Zero();  ///< [m, W]
+    /// From there to where A is met, and from where B is met to there: across the normal, half of the way by which the
+    /// two pass each other before they meet [m, W]. Zero where they are met in one place.
+    Vec3 slide = Vec3::Zero();
     Vec3 normal = Vec3::UnitX();  ///< n̂_BA_W: unit, from B to A
     double distance = 0;          ///< along the normal [m]; negative = overlap
     double allowed_overlap = 0;   ///< that the correction leaves alone [m], ≥ 0
@@ -30,6 +33,8 @@ struct Contact {
     /// its own.
     Vec3 earlier_impulse = Vec3::Zero(), earlier_angular_impulse = Vec3::Zero();
 
+    /// The place of one of its two bodies that is met [m, W].
+    Vec3 pointOn(BodyIndex body) const { return body == a ? Vec3(point + slide) : Vec3(point - slide); }
     /// Whether the bodies overlap by more than the correction leaves alone (thr_pen). @source thesis §2
     bool isTooDeep() const { return distance < -allowed_overlap; }
     /// Whether the bodies are apart and only may touch before the next detection.

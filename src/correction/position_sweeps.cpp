@@ -46,14 +46,16 @@ CorrectionCounts PositionSweeps::correct(const BatchView& batch, const ContactsO
         if (isMoved(overlap)) leversOf(overlap, contacts, bodies);
     }
     counts.displaced = displace(batch, bodies);
-    pay(contacts, bodies);
     for (const Overlap& overlap : overlaps_) {
         if (!isMoved(overlap)) continue;
         Contact& contact = contacts[overlap.index];
         contact.point += 0.5 * (shares_[overlap.a].displacement + shares_[overlap.b].displacement);
+        const Vec3 past = 0.5 * (shares_[overlap.a].displacement - shares_[overlap.b].displacement);
+        contact.slide += past - past.dot(contact.normal) * contact.normal;
         contact.distance = distanceOf(overlap);
         if (overlap.distance < overlap.threshold && !(contact.distance < overlap.threshold)) ++counts.corrected;
     }
+    pay(contacts, bodies);
     counts.uncorrected = counts.penetrating - counts.corrected;
     return counts;
 }
@@ -84,8 +86,8 @@ const PositionSweeps::Levers& PositionSweeps::leversOf(Overlap& overlap, std::sp
     overlap.levers = static_cast<std::uint32_t>(levers_.size());
     const Contact& contact = contacts[overlap.index];
     Levers& l = levers_.emplace_back();
-    l.a = (contact.point - bodies.position[contact.a]).cross(contact.normal);
-    l.b = (contact.point - bodies.position[contact.b]).cross(contact.normal);
+    l.a = (contact.pointOn(contact.a) - bodies.position[contact.a]).cross(contact.normal);
+    l.b = (contact.pointOn(contact.b) - bodies.position[contact.b]).cross(contact.normal);
     l.turn_a = bodies.inertiaInv_W[contact.a] * l.a;
     l.turn_b = bodies.inertiaInv_W[contact.b] * l.b;
     l.mass_a = bodies.mass_inv[contact.a];
@@ -179,8 +181,8 @@ void PositionSweeps::pay(std::span<const Contact> contacts, const BodyState& bod
 /// velocity u, the kinetic energy changes by λ·u + ½·k·λ²: at most by −u²/(2·k), at which u is 0.
 void PositionSweeps::payAt(const Contact& contact, Share& a, Share& b, const BodyState& bodies) {
     const Vec3& n = contact.normal;
-    const Vec3 lever_a = (contact.point - bodies.position[contact.a]).cross(n);
-    const Vec3 lever_b = (contact.point - bodies.position[contact.b]).cross(n);
+    const Vec3 lever_a = (contact.pointOn(contact.a) - bodies.position[contact.a]).cross(n);
+    const Vec3 lever_b = (contact.pointOn(contact.b) - bodies.position[contact.b]).cross(n);
     const Vec3 turn_a = bodies.inertiaInv_W[contact.a] * lever_a;
     const Vec3 turn_b = bodies.inertiaInv_W[contact.b] * lever_b;
     const double inverse_a = bodies.mass_inv[contact.a];

@@ -229,8 +229,8 @@ void saveTouching(const BodyStorage& bodies, double threshold, double time_step,
     before.lift.assign(bodies.slots(), Vec3::Zero());
     for (Contact& c : contacts) {
         const auto normalVelocity = [&](std::span<const Vec3> v, std::span<const Vec3> w) {
-            const Vec3 of_a = v[c.a] + w[c.a].cross(c.point - bodies.position[c.a]);
-            const Vec3 of_b = v[c.b] + w[c.b].cross(c.point - bodies.position[c.b]);
+            const Vec3 of_a = v[c.a] + w[c.a].cross(c.pointOn(c.a) - bodies.position[c.a]);
+            const Vec3 of_b = v[c.b] + w[c.b].cross(c.pointOn(c.b) - bodies.position[c.b]);
             return c.normal.dot(of_a - of_b);
         };
         const double closing = -normalVelocity(before.v, before.w);

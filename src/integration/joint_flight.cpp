@@ -117,7 +117,7 @@ bool JointFlight::isResting(const Contact& contact, const BodyStorage& bodies, c
     const double largest_inverse = std::max(bodies.mass_inv[contact.a], bodies.mass_inv[contact.b]);
     if (!(contact.impulse.norm() * largest_inverse > resting_part * gained)) return false;
     const auto speed = [&](BodyIndex i) -> Vec3 {
-        return bodies.v[i] + bodies.w[i].cross(contact.point - bodies.position[i]);
+        return bodies.v[i] + bodies.w[i].cross(contact.pointOn(i) - bodies.position[i]);
     };
     const double parting = contact.normal.dot(speed(contact.a) - speed(contact.b));
     return parting <= gained;

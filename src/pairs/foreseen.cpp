@@ -124,7 +124,7 @@ bool PairAhead::closes(const Vec3& point, const Vec3& normal, double distance) c
     return distance < range_.foresight.time * std::max({of_a + of_b, of_a, of_b});
 }
 
-void PairAhead::forEachAtEnd(Manifold& manifold, FunctionRef<void(const Vec3&, const Vec3&, double)> use) const {
+void PairAhead::forEachAtEnd(Manifold& manifold, FunctionRef<void(const AtEnd&)> use) const {
     const double time = range_.foresight.time;
     const double depth = range_.overlapOf(bodies_.r_min[pair_.a], bodies_.r_min[pair_.b]);
     if (forEachAfter(time, depth, manifold, use)) return;
@@ -139,11 +139,11 @@ void PairAhead::forEachAtEnd(Manifold& manifold, FunctionRef<void(const Vec3&, c
 
 /// Calls use() for where the bodies overlap after a time by more than a depth. @return whether there is such a place,
 /// in which they do not part
-bool PairAhead::forEachAfter(double time, double depth, Manifold& manifold,
-                             FunctionRef<void(const Vec3&, const Vec3&, double)> use) const {
+bool PairAhead::forEachAfter(double time, double depth, Manifold& manifold, FunctionRef<void(const AtEnd&)> use) const {
     const auto back = [&](BodyIndex i, const BodyAhead& ahead, const Vec3& point) -> Vec3 {
         if (!(ahead.reach > 0)) return point;
         const Vec3 lever = point - (bodies_.position[i] + bodies_.v[i] * time);
+        if (ahead.turning == 0) return bodies_.position[i] + lever;
         return bodies_.position[i] + fromRotationVector(bodies_.w[i] * time).conjugate() * lever;
     };
     bool any = false;
@@ -151,15 +151,18 @@ bool PairAhead::forEachAfter(double time, double depth, Manifold& manifold,
         for (std::size_t k = 0; k < found.size; ++k) {
             const auto& [place, distance, triangle] = found.points[k];
             if (!(distance < -depth)) continue;
-            const Vec3 point = (back(pair_.a, a_, place) + back(pair_.b, b_, place)) / 2;
-            const auto velocity = [&](BodyIndex i) -> Vec3 {
+            const Vec3 on_a = back(pair_.a, a_, place);
+            const Vec3 on_b = back(pair_.b, b_, place);
+            const auto velocity = [&](BodyIndex i, const Vec3& point) -> Vec3 {
                 return bodies_.v[i] + bodies_.w[i].cross(point - bodies_.position[i]);
             };
-            const double closing = found.normal.dot(velocity(pair_.a) - velocity(pair_.b));
+            const double closing = found.normal.dot(velocity(pair_.a, on_a) - velocity(pair_.b, on_b));
             // Those that part were closer before: where they are now is for the correction.
             if (!(closing < 0)) continue;
             any = true;
-            use(point, found.normal, distance - closing * time);
+            const Vec3 half = (on_a - on_b) / 2;
+            const Vec3 slide = half - half.dot(found.normal) * found.normal;
+            use(AtEnd{(on_a + on_b) / 2, slide, found.normal, distance - closing * time});
         }
     };
     forEachManifold(bodies_.shape[pair_.a], afterTime(pair_.a, a_, time), bodies_.shape[pair_.b],

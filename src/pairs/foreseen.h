@@ -84,10 +84,16 @@ class PairAhead {
     /// Whether they close fast enough, likewise, to touch in a point that is apart now.
     /// @param normal from B to A @param distance [m]
     bool closes(const Vec3& point, const Vec3& normal, double distance) const;
-    /// Calls use(point, normal, distance) for where the bodies overlap by more than they are allowed to when the step
-    /// ends, if nothing stops them: the place now, the direction then, and the distance from which the velocities
-    /// that they have now lead there [m, W].
-    void forEachAtEnd(Manifold& manifold, FunctionRef<void(const Vec3&, const Vec3&, double)> use) const;
+    /// Where two bodies meet later than now.
+    struct AtEnd {
+        Vec3 point;       ///< now: between the places of the two that meet then [m, W]
+        Vec3 slide;       ///< Contact::slide
+        Vec3 normal;      ///< then [W]
+        double distance;  ///< from which the velocities that they have now lead there [m]
+    };
+    /// Calls use() for where the bodies overlap by more than they are allowed to when the step ends, if nothing stops
+    /// them.
+    void forEachAtEnd(Manifold& manifold, FunctionRef<void(const AtEnd&)> use) const;
     /// Whether one is a surface, and they move so far past each other that a solid could be through it in the end.
     bool mayCross() const {
         if (!isAny()) return false;
@@ -96,9 +102,9 @@ class PairAhead {
         const bool surface_b = surfaceOf(bodies_.shape[pair_.b]) != nullptr;
         return surface_a != surface_b && passesFar(surface_a ? pair_.b : pair_.a);
     }
-    /// Calls use(point, normal, distance), as above, for where the middle of a solid, or of a part of it, would pass
-    /// through a surface within the step: the contact of a ball as thick as the part with the plane of the triangle
-    /// that is in its way. On rough ground what is nearest now does not stop a body that goes elsewhere. @pre
+    /// Calls use(point, normal, distance [m, W]), likewise, for where the middle of a solid, or of a part of it, would
+    /// pass through a surface within the step: the contact of a ball as thick as the part with the plane of the
+    /// triangle that is in its way. On rough ground what is nearest now does not stop a body that goes elsewhere. @pre
     /// mayCross()
     void forEachCrossing(FunctionRef<void(const Vec3&, const Vec3&, double)> use) const;
 
@@ -113,8 +119,7 @@ class PairAhead {
 
     bool passesFar(BodyIndex solid) const;
     bool meetsWith(const BodyAhead* a, const BodyAhead* b, double depth) const;
-    bool forEachAfter(double time, double depth, Manifold& manifold,
-                      FunctionRef<void(const Vec3&, const Vec3&, double)> use) const;
+    bool forEachAfter(double time, double depth, Manifold& manifold, FunctionRef<void(const AtEnd&)> use) const;
     Pose afterTime(BodyIndex i, const BodyAhead& ahead, double time) const;
     Pose endOf(BodyIndex i, const BodyAhead& ahead) const;
     Pose fallenEndOf(BodyIndex i, const BodyAhead& ahead) const;

@@ -15,6 +15,7 @@ Contact contactOf(const BodyStorage& bodies, const MaterialTable& materials, con
     return {.a = found.a,
             .b = found.b,
             .point = found.point,
+            .slide = found.slide,
             .normal = found.normal,
             .distance = found.distance,
             .allowed_overlap = found.allowed_overlap,

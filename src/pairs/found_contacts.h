@@ -28,6 +28,7 @@ struct FoundContact {
     double distance;                        ///< [m]
     double allowed_overlap = 0;             ///< Contact::allowed_overlap
     double allowed_closing = 0;             ///< Contact::allowed_closing
+    Vec3 slide = Vec3::Zero();              ///< Contact::slide
     Vec3 last_impulse = Vec3::Zero();       ///< Contact::last_impulse
     Vec3 reference_impulse = Vec3::Zero();  ///< Contact::reference_impulse
     Vec3 earlier_impulse = Vec3::Zero();    ///< Contact::earlier_impulse

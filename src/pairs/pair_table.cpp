@@ -104,12 +104,15 @@ void findMissing(const BodyStorage& bodies, const BodyPair& pair, std::size_t n,
                    contacts.end());
     if (!ahead.isAny()) return;
     const double allowed_overlap = range.overlapOf(bodies.r_min[pair.a], bodies.r_min[pair.b]);
-    ahead.forEachAtEnd(manifold, [&](const Vec3& point, const Vec3& normal, double distance) {
+    ahead.forEachAtEnd(manifold, [&](const PairAhead::AtEnd& met) {
         const auto isSame = [&](const auto& c) {
-            const double apart = (c.point - point).squaredNorm() + size * size * (c.normal - normal).squaredNorm();
+            const Vec3 between = c.point - met.point;
+            const Vec3 further = c.slide - met.slide;
+            const double on_a_or_b = std::min((between + further).squaredNorm(), (between - further).squaredNorm());
+            const double apart = on_a_or_b + size * size * (c.normal - met.normal).squaredNorm();
             return apart < same_at_end * same_at_end * size * size;
         };
-        const double gap = std::max(0.0, distance);
+        const double gap = std::max(0.0, met.distance);
         const double closing = gap / range.foresight.time;
         const auto same = std::ranges::find_if(known, isSame);
         if (same != known.end()) {
@@ -118,7 +121,7 @@ void findMissing(const BodyStorage& bodies, const BodyPair& pair, std::size_t n,
             return;
         }
         if (std::ranges::any_of(std::span(contacts).subspan(first), isSame)) return;
-        appendTightly(contacts, {pair.a, pair.b, point, normal, gap, allowed_overlap, closing});
+        appendTightly(contacts, {pair.a, pair.b, met.point, met.normal, gap, allowed_overlap, closing, met.slide});
     });
 }
 

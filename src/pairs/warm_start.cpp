@@ -38,6 +38,7 @@ void beginContacts(std::span<Contact> contacts, const ContactsBegin& begins, con
                 c.reference_impulse.setZero();
             }
             c.impulse.setZero();
+            c.slide.setZero();
             c.angular_impulse.setZero();
             c.gap = c.forced = c.fall = c.climb = 0;
         }

@@ -64,7 +64,7 @@ double EnergyGuard::givenBySupports(const BatchView& batch, std::span<const Cont
         const Contact& contact = contacts[n];
         const auto work = [&](BodyIndex i) {
             if (!bodies.isFixed(i)) return 0.0;
-            const Vec3 velocity = bodies.v[i] + bodies.w[i].cross(contact.point - bodies.position[i]) +
+            const Vec3 velocity = bodies.v[i] + bodies.w[i].cross(contact.pointOn(i) - bodies.position[i]) +
                                   bodies.surfaceVelocity(i, contact.normal);
             return contact.impulse.dot(velocity) + contact.angular_impulse.dot(bodies.w[i]);
         };

@@ -85,8 +85,8 @@ template <class Number>
             const std::uint32_t source = index == empty_lane ? substitute[lane] : index;
             const Contact& contact = pgs.contacts[pgs.batch.contacts[source]];
             setLane(wide.normal, lane, contact.normal);
-            setLane(wide.r_a, lane, contact.point - pgs.bodies.position[contact.a]);
-            setLane(wide.r_b, lane, contact.point - pgs.bodies.position[contact.b]);
+            setLane(wide.r_a, lane, contact.pointOn(contact.a) - pgs.bodies.position[contact.a]);
+            setLane(wide.r_b, lane, contact.pointOn(contact.b) - pgs.bodies.position[contact.b]);
             setLane(wide.impulse, lane, index == empty_lane ? Vec3(Vec3::Zero()) : contact.last_impulse);
             setLane(wide.friction, lane, contact.static_friction);
         }

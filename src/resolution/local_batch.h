@@ -55,7 +55,8 @@ class LocalBatch {
     }
     NormalArms armsOf(std::uint32_t contact) const {
         const Contact& source = source_[source_contacts_[contact]];
-        return {source.normal, source.point - source_position_[source.a], source.point - source_position_[source.b]};
+        return {source.normal, source.pointOn(source.a) - source_position_[source.a],
+                source.pointOn(source.b) - source_position_[source.b]};
     }
     /// ϑA0 − ϑB0, the first component of velocityOf() [m/s].
     double normalVelocityOf(std::uint32_t contact) const {

@@ -106,8 +106,8 @@ ContactWork workOf(const WorldState& world, const Contact& c) {
     const Mat3 to_contact = contactBasis(c.normal).transpose();
     const Vec3 surface = surfaceVelocity(world, c, c.a) - surfaceVelocity(world, c, c.b);
     const auto at = [&](std::span<const Vec3> v, std::span<const Vec3> w) -> Vec3 {
-        const Vec3 r_a = c.point - b.position[c.a];
-        const Vec3 r_b = c.point - b.position[c.b];
+        const Vec3 r_a = c.pointOn(c.a) - b.position[c.a];
+        const Vec3 r_b = c.pointOn(c.b) - b.position[c.b];
         return to_contact * (v[c.a] + w[c.a].cross(r_a) - v[c.b] - w[c.b].cross(r_b) + surface);
     };
     const Vec3 turning = 0.5 * (data.w[c.a] + b.w[c.a] - data.w[c.b] - b.w[c.b]);
@@ -140,9 +140,10 @@ void sumContacts(const WorldState& world, MeasuredSums& sums) {
         if (a_moves == (b.kind[c.b] == BodyKind::dynamic)) continue;
         const double sign = a_moves ? 1 : -1;
         sums.fixed.add(sign * c.impulse);
-        sums.fixed_angular.add(sign * (c.point.cross(c.impulse) + c.angular_impulse));
+        sums.fixed_angular.add(sign * (c.pointOn(a_moves ? c.a : c.b).cross(c.impulse) + c.angular_impulse));
         const BodyIndex wall = a_moves ? c.b : c.a;
-        const Vec3 at_wall = b.v[wall] + b.w[wall].cross(c.point - b.position[wall]) + surfaceVelocity(world, c, wall);
+        const Vec3 at_wall =
+            b.v[wall] + b.w[wall].cross(c.pointOn(wall) - b.position[wall]) + surfaceVelocity(world, c, wall);
         sums.drives.add(sign * (c.impulse.dot(at_wall) + c.angular_impulse.dot(b.w[wall])));
     }
 }

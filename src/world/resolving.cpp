@@ -78,7 +78,7 @@ bool hasBounced(const Contact& contact, const BodyState& bodies, const Resolutio
 void takeBack(const Contact& contact, const BodyState& bodies) {
     for (const auto& [i, sign] : {std::pair(contact.a, 1.0), std::pair(contact.b, -1.0)}) {
         if (bodies.isFixed(i) || bodies.asleep[i] != 0) continue;
-        const Vec3 lever = contact.point - bodies.position[i];
+        const Vec3 lever = contact.pointOn(i) - bodies.position[i];
         bodies.v[i] -= sign * bodies.mass_inv[i] * contact.impulse;
         bodies.w[i] -= sign * (bodies.inertiaInv_W[i] * (lever.cross(contact.impulse) + contact.angular_impulse));
     }
