@@ -19,12 +19,20 @@ void ContactLaw::begin(const BatchView& batch, std::span<const Contact> contacts
             touch_.push_back({contacts[i].forced, contacts[i].fall, contacts[i].climb});
         }
     }
-    thesis_ = restitution_law_ == RestitutionLaw::newton && touch_.empty() && rolls_freely;
+    allowed_closing_.clear();
+    if (std::ranges::any_of(batch.contacts, [&](std::uint32_t i) { return contacts[i].isForeseen(); })) {
+        // What closes by more than the threshold only is resolved: what is foreseen shall not lose that.
+        for (const std::uint32_t i : batch.contacts) {
+            allowed_closing_.push_back(std::max(0.0, contacts[i].allowed_closing - settings.resolution_threshold));
+        }
+    }
+    thesis_ = restitution_law_ == RestitutionLaw::newton && touch_.empty() && allowed_closing_.empty() && rolls_freely;
 }
 
 double ContactLaw::separatingSpeed(std::size_t contact, const ContactFrame& frame, double closing) const {
     if (!touch_.empty()) return touchingSpeed(frame.restitution, restitution_threshold_, touch_[contact], closing);
-    return closing > -restitution_threshold_ ? 0 : -frame.restitution * closing;
+    const bool bounces = frame.restitution > 0 && closing <= -restitution_threshold_;
+    return bounces ? -frame.restitution * closing : -allowedClosing(contact);
 }
 
 double ContactLaw::separatingSpeed(const ResolutionSettings& settings, const Contact& contact, double closing) {
@@ -32,8 +40,7 @@ double ContactLaw::separatingSpeed(const ResolutionSettings& settings, const Con
         return touchingSpeed(contact.restitution, settings.restitution_threshold,
                              {contact.forced, contact.fall, contact.climb}, closing);
     }
-    const bool bounces =
-        contact.restitution > 0 && closing <= -settings.restitution_threshold && closing < -contact.allowed_closing;
+    const bool bounces = isImpact(contact, closing, settings.restitution_threshold);
     return bounces ? -contact.restitution * closing : -contact.allowed_closing;
 }
 

@@ -16,6 +16,12 @@ struct ContactWrench {
     Vec3 angular = Vec3::Zero();  ///< on A besides [N·m·s, contact coordinates]
 };
 
+/// Whether a contact bounces: bodies that are apart only where they meet before the next detection.
+/// @param closing normal velocity [m/s], < 0 where they close @param threshold thr_restitution [m/s]
+inline bool isImpact(const Contact& contact, double closing, double threshold) {
+    return contact.restitution > 0 && closing <= -threshold && closing < -contact.allowed_closing;
+}
+
 /// The law of the contacts of one batch.
 class ContactLaw {
   public:
@@ -24,8 +30,13 @@ class ContactLaw {
     /// Whether every contact follows the thesis: contactImpulse() says all.
     bool isThesis() const { return thesis_; }
 
-    /// The speed with which a contact shall separate [m/s]. @param contact its index in the batch
-    /// @param closing normal velocity [m/s], < 0
+    /// How fast a contact may close [m/s], ≥ 0. @param contact its index in the batch
+    double allowedClosing(std::size_t contact) const {
+        return allowed_closing_.empty() ? 0 : allowed_closing_[contact];
+    }
+
+    /// The speed with which a contact shall separate [m/s]; < 0 = it may go on closing. @param contact its index in the
+    /// batch @param closing normal velocity [m/s], < −allowedClosing()
     double separatingSpeed(std::size_t contact, const ContactFrame& frame, double closing) const;
 
     /// The same of a contact outside of a batch.
@@ -51,6 +62,8 @@ class ContactLaw {
     RestitutionLaw restitution_law_ = RestitutionLaw::newton;
     double restitution_threshold_ = 0;  ///< [m/s]
     std::vector<Touch> touch_;          ///< [contacts]; empty = the closing speed counts
+    /// [contacts] [m/s]; empty = all bodies touch.
+    std::vector<double> allowed_closing_;
 };
 
 }  // namespace cairn

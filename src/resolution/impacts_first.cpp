@@ -6,6 +6,7 @@
 
 #include "batches/batch_motion.h"
 #include "resolution/algorithms.h"
+#include "resolution/contact_law.h"
 
 namespace cairn {
 
@@ -46,8 +47,7 @@ class ImpactsFirst final : public BatchResolution {
     static bool hasImpact(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies,
                           const ResolutionSettings& settings) {
         return std::ranges::any_of(batch.contacts, [&](std::uint32_t i) {
-            const Contact& contact = contacts[i];
-            return contact.restitution > 0 && normalVelocity(contact, bodies) < -settings.restitution_threshold;
+            return isImpact(contacts[i], normalVelocity(contacts[i], bodies), settings.restitution_threshold);
         });
     }
 

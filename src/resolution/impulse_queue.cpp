@@ -53,7 +53,7 @@ RunOutcome QueueSolver::runWith(Queue& queue, std::span<const std::uint32_t> mem
             delta_[i] = 0;
             continue;
         }
-        const double delta = batch.normalVelocityOf(i);
+        const double delta = batch.normalVelocityOf(i) + law_.allowedClosing(i);
         if (!std::isfinite(delta)) continue;
         delta_[i] = delta;
         if (!(delta < threshold_)) continue;
@@ -141,13 +141,14 @@ std::int64_t QueueSolver::resolve(Queue& queue, std::uint32_t contact) {
     const Vec3 velocity = relativeVelocity(frame, a, b);
     // δ follows the velocities by adding up their changes; its rounding errors end here, where its value matters.
     const bool usable = std::isfinite(velocity[0]) && isResolvable(frame);
-    if (!(velocity[0] < threshold_) || !usable) {
+    const double delta = velocity[0] + law_.allowedClosing(contact);
+    if (!(delta < threshold_) || !usable) {
         // What is not finite is never touched again, so that it cannot spread.
-        delta_[contact] = usable ? velocity[0] : never;
+        delta_[contact] = usable ? delta : never;
         queue.contactOpened(contact);
         return 0;
     }
-    delta_[contact] = velocity[0];
+    delta_[contact] = delta;
     if (!law_.isThesis()) {
         resolveByLaw(queue, contact, velocity);
         return 1;

@@ -58,10 +58,12 @@ double timeOf(const BodyStorage& bodies, const Contact& contact, double step) {
         const double bend = turningOf(bodies, i).squaredNorm() * (contact.point - bodies.position[i]).norm() / 2;
         if (bend > 0) time = std::min(time, std::sqrt(most_bent * extent / bend));
     }
-    // Along a plane all places are alike.
+    // Along a plane all places are alike, but what bounces off it may meet what is behind.
     const auto isPlane = [&](BodyIndex i) { return std::holds_alternative<HalfSpace>(bodies.shape[i]); };
-    if (isPlane(contact.a) || isPlane(contact.b)) return time;
-    const double passing = (bodies.v[contact.a] - bodies.v[contact.b]).norm();
+    const Vec3 velocity = bodies.v[contact.a] - bodies.v[contact.b];
+    const bool slides_alike = isPlane(contact.a) || isPlane(contact.b);
+    if (slides_alike && contact.restitution == 0) return time;
+    const double passing = slides_alike ? std::abs(contact.normal.dot(velocity)) : velocity.norm();
     return passing > 0 ? std::min(time, most_passed * extent / passing) : time;
 }
 

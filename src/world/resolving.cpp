@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "batches/batch_motion.h"
+#include "resolution/contact_law.h"
 #include "world/checks.h"
 #include "world/joints.h"
 #include "world/pair_laws.h"
@@ -63,11 +64,6 @@ bool areFixedOrAsleep(const Contact& contact, const BodyState& bodies) {
     return rests(contact.a) && rests(contact.b);
 }
 
-bool bounces(const Contact& contact, const BodyState& bodies, const ResolutionSettings& settings) {
-    const double closing = -normalVelocity(contact, bodies);
-    return contact.restitution > 0 && closing >= settings.restitution_threshold && closing > contact.allowed_closing;
-}
-
 /// Whether a contact pushed bodies apart that now part faster than what only comes to rest.
 bool hasBounced(const Contact& contact, const BodyState& bodies, const ResolutionSettings& settings) {
     return contact.restitution > 0 && contact.normal.dot(contact.impulse) > 0 &&
@@ -125,6 +121,7 @@ void resolveAgain(WorldState& world, BodyState& bodies, std::span<const BatchVie
     StepData& data = world.data;
     // Where impacts follow each other, what sweeps left closing is the next one.
     const bool each_bounces = world.settings.resolution.impacts == Impacts::sequential;
+    const double threshold = world.settings.resolution.restitution_threshold;
     data.followed.clear();
     data.resolved.clear();
     for (const BatchView& view : groups) {
@@ -132,7 +129,8 @@ void resolveAgain(WorldState& world, BodyState& bodies, std::span<const BatchVie
         bool bounced = false;
         for (const std::uint32_t i : view.contacts) {
             const bool added = std::ranges::binary_search(data.added, i);
-            const bool struck = added && bounces(data.contacts[i], bodies, world.settings.resolution);
+            const bool struck =
+                added && isImpact(data.contacts[i], normalVelocity(data.contacts[i], bodies), threshold);
             strikes = strikes || struck;
             bounced = bounced || (!added && hasBounced(data.contacts[i], bodies, world.settings.resolution));
         }

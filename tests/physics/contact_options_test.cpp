@@ -211,7 +211,7 @@ TEST(ElasticBounce, CompletesTheFlightUntilTheImpact) {
 }
 
 TEST(ElasticBounce, KeepsTheEnergyWhereImpactsFollowEachOtherWithinAStep) {
-    for (const auto& [rate, allowed] : {std::pair(1000.0, 1e-5), std::pair(100.0, 1e-2)}) {
+    for (const auto& [rate, allowed] : {std::pair(1000.0, 1e-5), std::pair(100.0, 1e-2), std::pair(60.0, 1e-2)}) {
         Settings settings = Settings::preset(Preset::accuracy, rate, g);
         settings.resolution.impacts = Impacts::sequential;
         World world = elasticBalls(settings, 8, true);

@@ -261,10 +261,8 @@ TEST(ForeseenContacts, TheSideThatAnImpactTurnsDownStopsAtTheFloor) {
     }
 }
 
-/// Bodies in layers of nine, thrown onto the floor of a pit by most of their size in a step.
-double deepestOfThrown(const Shape& shape, double size, double speed) {
-    Scene scene;
-    scene.world.setSettings(Settings::preset(Preset::performance, 480));
+/// Puts bodies in layers of nine over the floor of a pit.
+void throwIntoPit(Scene& scene, const Shape& shape, double size, double speed) {
     for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)}) {
         scene.world.addBody(
             fixedAt(HalfSpace{normal, 0}, normal.z() > 0 ? Vec3(0, 0, 0) : Vec3(-1.85 * size * normal)));
@@ -275,6 +273,13 @@ double deepestOfThrown(const Shape& shape, double size, double speed) {
         d.pose.orientation = Quat(Eigen::AngleAxisd(0.7 * i, Vec3(1, 0.1 * i, 0.5).normalized()));
         scene.world.addBody(d);
     }
+}
+
+/// How far they get into each other that are thrown by most of their size in a step [m].
+double deepestOfThrown(const Shape& shape, double size, double speed) {
+    Scene scene;
+    scene.world.setSettings(Settings::preset(Preset::performance, 480));
+    throwIntoPit(scene, shape, size, speed);
     double deepest = 0;
     for (int i = 0; i < 120; ++i) {
         scene.world.step();
@@ -295,6 +300,23 @@ TEST(ForeseenContacts, WhatIsThrownIntoAPitDoesNotGetFarIntoEachOther) {
     EXPECT_LT(cylinders / throws, 0.08);
     // They are the thinnest and turn most in a step: single ones get to a quarter.
     EXPECT_LT(rods / throws, 0.16);
+}
+
+TEST(ForeseenContacts, BallsWithoutFrictionDoNotTurn) {
+    for (const double restitution : {0.0, 0.5}) {
+        Scene scene;
+        scene.world.setSettings(Settings::preset(Preset::performance, 480));
+        scene.world.setDefaultPairProperties({.restitution = restitution, .static_friction = 0, .kinetic_friction = 0});
+        throwIntoPit(scene, Sphere{0.05}, 0.1, 20);
+        double fastest = 0;
+        for (int i = 0; i < 240; ++i) {
+            scene.world.step();
+            for (const BodyId id : scene.world.bodies()) {
+                fastest = std::max(fastest, scene.world.angularVelocity(id).norm());
+            }
+        }
+        EXPECT_LT(fastest, 1e-9) << restitution;
+    }
 }
 
 /// How deep grains on a floor get into a box 8000 times as heavy as one of them that falls onto them, as a part of a
