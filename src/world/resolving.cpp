@@ -17,8 +17,10 @@ namespace {
 /// last one, or goes on with sweeps that were not enough.
 constexpr int most_follows = 64;
 
-/// Sweeps go on where bodies would overlap by so much more than allowed, as a part of that.
-constexpr double far_part = 1;
+/// Sweeps go on where bodies would get into each other in this step so that they overlap by more than this multiple of
+/// what they may, unless it is less than this part of it that they still get on: what presses for long goes deeper step
+/// by step.
+constexpr double most_overlap = 1.2, least_way = 0.1;
 
 /// A round helps a pair if it leaves it closing by less than this part of the least so far. After so many rounds that
 /// did not it is given up in this step.
@@ -51,11 +53,10 @@ void resolveChosen(WorldState& world, BodyState& bodies, std::span<const BatchVi
     data.selection.finish();
 }
 
-/// By how much more than allowed the bodies of a contact would overlap when the step ends, with the velocities that
-/// they have [m]; ≤ 0 = by no more.
-double wayTooFar(const Contact& contact, const BodyState& bodies) {
-    const double closing = -normalVelocity(contact, bodies) - contact.allowed_closing;
-    return closing * bodies.time_step - contact.allowed_overlap;
+/// How far the bodies of a contact would get into each other in this step, with the velocities that they have [m];
+/// ≤ 0 = not at all.
+double wayInto(const Contact& contact, const BodyState& bodies) {
+    return (-normalVelocity(contact, bodies) - contact.allowed_closing) * bodies.time_step;
 }
 
 /// Whether the resolution moves neither body of a contact.
@@ -191,7 +192,7 @@ void resolveLaunchedJoints(WorldState& world, BodyState& bodies) {
     for (const BatchView& view : data.launched_views) addJointImpulses(world, view.joints);
 }
 
-/// Lists the contacts that would let their bodies overlap far too much, in ascending order.
+/// Lists the contacts at which bodies would get too far into each other, in ascending order.
 void listClosing(WorldState& world, const BodyState& bodies, std::vector<std::uint32_t>& list) {
     StepData& data = world.data;
     data.closing.resize(static_cast<std::size_t>(world.executor.threads()));
@@ -201,7 +202,8 @@ void listClosing(WorldState& world, const BodyState& bodies, std::vector<std::ui
         for (std::size_t i = begin; i < end; ++i) {
             const Contact& contact = data.contacts[i];
             if (areFixedOrAsleep(contact, bodies)) continue;
-            if (!(wayTooFar(contact, bodies) > far_part * contact.allowed_overlap)) continue;
+            const double left = most_overlap * contact.allowed_overlap - std::max(0.0, -contact.distance);
+            if (!(wayInto(contact, bodies) > std::max(least_way * contact.allowed_overlap, left))) continue;
             part.push_back(static_cast<std::uint32_t>(i));
         }
     });
@@ -224,7 +226,7 @@ void findUnresolved(WorldState& world, const BodyState& bodies) {
         const Contact& contact = data.contacts[i];
         const BodyPair pair{contact.a, contact.b};
         if (data.left_closing.empty() || data.left_closing.back().pair != pair) data.left_closing.push_back({pair});
-        data.left_closing.back().way = std::max(data.left_closing.back().way, wayTooFar(contact, bodies));
+        data.left_closing.back().way = std::max(data.left_closing.back().way, wayInto(contact, bodies));
     }
     const auto find = [](std::vector<LeftClosing>& list, const BodyPair& pair) {
         const auto found = std::ranges::lower_bound(list, pair, {}, &LeftClosing::pair);
@@ -305,7 +307,7 @@ void resolveLaunched(WorldState& world, BodyState& bodies, const PairsInput& pai
     data.added.clear();
     data.unresolved.clear();
     for (std::uint32_t i = 0; i < data.contacts.size(); ++i) {
-        if (wayTooFar(data.contacts[i], bodies) > 0) data.added.push_back(i);
+        if (wayInto(data.contacts[i], bodies) > data.contacts[i].allowed_overlap) data.added.push_back(i);
     }
     if (data.added.empty()) return;
     resolveLaunchedJoints(world, bodies);

@@ -78,7 +78,7 @@ struct FollowedGroup {
 /// Two bodies that a resolution left closing.
 struct LeftClosing {
     BodyPair pair;
-    double way = 0;   ///< by which they would overlap more than allowed, the least of all rounds so far [m]
+    double way = 0;   ///< that they would get into each other, the least of all rounds so far [m]
     int useless = 0;  ///< rounds that did not help
 };
 
