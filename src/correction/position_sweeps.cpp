@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "math/rotation.h"
 
@@ -20,9 +21,18 @@ constexpr double deep_multiple = 1.3;
 /// ones it has nowhere to go, and by inverse masses it would be pushed to and fro for as many sweeps as it is lighter.
 constexpr double most_uneven = 8;
 constexpr double by_masses = std::numeric_limits<double>::infinity();
+constexpr double unlimited = std::numeric_limits<double>::infinity();
 /// What is far too deep is left so deep in one step: pushes apart of all of it would drive others into each other,
 /// which this step does not see.
 constexpr double left_of_deep = 0.5;
+/// A body is turned so far that what touches goes by this multiple of the threshold: contacts are those of the sides
+/// that bodies turn to each other now.
+constexpr double most_turned = 3;
+/// Nobody is pushed so that they overlap by more than this multiple of the threshold.
+constexpr double most_overlap = 1.35;
+/// In batches with overlaps of more than this multiple, which a scene or a user began with, both is allowed: bodies
+/// come apart only through each other.
+constexpr double most_grown = 10;
 
 /// Whether an impulse may change the velocity of a body or finds a fixed one: not of one that is held still.
 bool mayReceive(const BodyState& bodies, BodyIndex i) {
@@ -44,6 +54,8 @@ CorrectionCounts PositionSweeps::correct(const BatchView& batch, const ContactsO
     }
     for (Overlap& overlap : overlaps_) {
         if (isMoved(overlap)) leversOf(overlap, contacts, bodies);
+    }
+    while (!stuck_ && holdBack()) {
     }
     counts.displaced = displace(batch, bodies);
     for (const Overlap& overlap : overlaps_) {
@@ -67,9 +79,11 @@ void PositionSweeps::gather(const BatchView& batch, std::span<const Contact> con
     shares_.assign(batch.bodies.size() + 1, {});
     overlaps_.clear();
     levers_.clear();
+    stuck_ = false;
     for (const std::uint32_t index : batch.contacts) {
         const Contact& contact = contacts[index];
         if (!std::isfinite(contact.distance)) continue;
+        stuck_ = stuck_ || contact.distance < -most_grown * contact.allowed_overlap;
         overlaps_.push_back({.normal = contact.normal,
                              .distance = contact.distance,
                              .threshold = -contact.allowed_overlap,
@@ -77,6 +91,24 @@ void PositionSweeps::gather(const BatchView& batch, std::span<const Contact> con
                              .b = bodies.isFixed(contact.b) ? fixed : bodies.place[contact.b],
                              .index = index});
     }
+}
+
+/// Leaves bodies where they are that pushes would leave deeper in each other than they were, and than they may be:
+/// where a pile is jammed, sweeps end before everybody has a place. @pre levers are known where bodies moved
+/// @return whether there were any
+bool PositionSweeps::holdBack() {
+    bool any = false;
+    for (const Overlap& overlap : overlaps_) {
+        if (!isMoved(overlap)) continue;
+        if (!(distanceOf(overlap) < std::min(most_overlap * overlap.threshold, overlap.distance))) continue;
+        for (const std::uint32_t i : {overlap.a, overlap.b}) {
+            any = any || shares_[i].moved;
+            shares_[i].displacement.setZero();
+            shares_[i].turn.setZero();
+            shares_[i].moved = false;
+        }
+    }
+    return any;
 }
 
 /// The levers of a contact, which only those need that are too deep or whose bodies moved.
@@ -90,6 +122,11 @@ const PositionSweeps::Levers& PositionSweeps::leversOf(Overlap& overlap, std::sp
     l.b = (contact.pointOn(contact.b) - bodies.position[contact.b]).cross(contact.normal);
     l.turn_a = bodies.inertiaInv_W[contact.a] * l.a;
     l.turn_b = bodies.inertiaInv_W[contact.b] * l.b;
+    for (const auto& [place, body] : {std::pair(overlap.a, contact.a), std::pair(overlap.b, contact.b)}) {
+        const double lever = (contact.pointOn(body) - bodies.position[body]).norm();
+        const double angle = lever > 0 ? most_turned * contact.allowed_overlap / lever : 0;
+        shares_[place].most_turn = std::max(shares_[place].most_turn, stuck_ ? unlimited : angle);
+    }
     l.mass_a = bodies.mass_inv[contact.a];
     l.mass_b = bodies.mass_inv[contact.b];
     l.k_a = l.mass_a + l.turn_a.dot(l.a);
@@ -127,10 +164,10 @@ inline double PositionSweeps::separate(Overlap& overlap, std::span<const Contact
     const double part_b = both ? std::min(1.0, push.largest_ratio * levers.k_a / levers.k_b) : 1;
     const double impulse = (goal - distance) / (part_a * levers.k_a + part_b * levers.k_b);
     a.displacement += part_a * impulse * levers.mass_a * overlap.normal;
-    a.turn += part_a * impulse * levers.turn_a;
+    a.turnBy(part_a * impulse * levers.turn_a);
     a.moved = a.moved || levers.mass_a > 0;
     b.displacement -= part_b * impulse * levers.mass_b * overlap.normal;
-    b.turn -= part_b * impulse * levers.turn_b;
+    b.turnBy(-part_b * impulse * levers.turn_b);
     b.moved = b.moved || levers.mass_b > 0;
     return distance / overlap.threshold;
 }

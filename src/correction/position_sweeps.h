@@ -2,6 +2,7 @@
 /// Constraints, GDC 2009 (position correction of overlapping contacts by inverse masses)
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -58,8 +59,15 @@ class PositionSweeps final : public Correction {
     struct Share {
         Vec3 displacement = Vec3::Zero();  ///< [m, W]
         Vec3 turn = Vec3::Zero();          ///< rotation vector [W]
+        double most_turn = 0;              ///< [rad]
         double debt = 0;                   ///< potential energy gained and not paid for yet [J], ≥ 0
         bool moved = false;
+
+        void turnBy(const Vec3& angle) {
+            turn += angle;
+            const double squared = turn.squaredNorm();
+            if (squared > most_turn * most_turn) turn *= most_turn / std::sqrt(squared);
+        }
     };
 
     void gather(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies);
@@ -67,11 +75,13 @@ class PositionSweeps final : public Correction {
     const Levers& leversOf(Overlap& overlap, std::span<const Contact> contacts, const BodyState& bodies);
     double sweep(std::span<const Contact> contacts, const BodyState& bodies, const Push& push);
     double separate(Overlap& overlap, std::span<const Contact> contacts, const BodyState& bodies, const Push& push);
+    bool holdBack();
     double distanceOf(const Overlap& overlap) const;
     std::int64_t displace(const BatchView& batch, const BodyState& bodies);
     void pay(std::span<const Contact> contacts, const BodyState& bodies);
     void payAt(const Contact& contact, Share& a, Share& b, const BodyState& bodies);
 
+    bool stuck_ = false;  ///< the batch began deep in each other
     std::vector<Overlap> overlaps_;
     std::vector<Levers> levers_;  ///< of the contacts that asked for them
     std::vector<Share> shares_;   ///< [bodies of the batch + 1]

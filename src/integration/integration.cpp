@@ -175,13 +175,43 @@ double speedChange(const BodyStorage& bodies, const VelocitiesBefore& before, st
 
 }  // namespace
 
-void savePositions(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before) {
-    before.position.resize(bodies.slots());
+void beginWays(const BodyStorage& bodies, bool placed, const Executor& executor, VelocitiesBefore& before) {
+    before.way.resize(bodies.slots());
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
-            if (bodies.kind[i] != BodyKind::hole) before.position[i] = bodies.position[i];
+            if (bodies.kind[i] == BodyKind::hole) continue;
+            const Pose now{bodies.position[i], bodies.orientation[i]};
+            const bool known = !placed && bodies.detected_position[i].allFinite();
+            const Pose from = known ? Pose{bodies.detected_position[i], bodies.detected_orientation[i]} : now;
+            // Whoever fell asleep since may have been moved by the correction before.
+            const bool flies = bodies.kind[i] == BodyKind::dynamic && bodies.asleep[i] == 0;
+            before.way[i] = {from, now, bodies.w[i], flies ? BodyWay::flown : BodyWay::begun};
         }
     });
+}
+
+void flyBack(BodyStorage& bodies, BodyIndex i, double place, const Vec3& acceleration, const SleepSettings& settings,
+             double time_step, BodyWay& way) {
+    const Pose to = poseOnWay({bodies.position[i], bodies.orientation[i]}, way, place);
+    const double before = way.part();
+    way.place = place;
+    const Vec3 gain = accelerationOf(bodies, i, acceleration, settings);
+    if (before > 0) bodies.w[i] = way.w;
+    if (way.part() > 0) {
+        // What turns freely does not turn evenly.
+        bodies.position[i] = way.begin.position;
+        bodies.orientation[i] = way.begin.orientation;
+        bodies.inertiaInv_W[i] = toWorldInertia(bodies.inertiaInv_B[i], bodies.orientation[i]);
+        bodies.v[i] += (1 - before) * time_step * gain;
+        advancePosition(bodies, i, way.part() * time_step);
+        bodies.v[i] -= (1 - way.part()) * time_step * gain;
+        return;
+    }
+    bodies.position[i] = to.position;
+    bodies.orientation[i] = to.orientation.normalized();
+    bodies.inertiaInv_W[i] = toWorldInertia(bodies.inertiaInv_B[i], bodies.orientation[i]);
+    bodies.linear_step[i].setZero();
+    bodies.v[i] -= before * time_step * gain;
 }
 
 void saveVelocities(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before) {
@@ -267,23 +297,26 @@ void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, s
         for (std::size_t i = begin; i < end; ++i) {
             if (bodies.kind[i] != BodyKind::dynamic || bodies.asleep[i] != 0) continue;
             if (!jointed.empty() && jointed[i] != 0) continue;
+            // The clock of a body that flew a part of its way stood still since, and its velocity before the forces is
+            // what leads to that of then.
+            const double flown = before.way[i].part();
             if (!(speedChange(bodies, before, i) <= smooth_multiple * before.forced[i])) {
                 if (before.bounced[i] != 0) {
-                    bodies.position[i] += (before.forced_v[i] - before.v[i]) * (time_step / 2);
+                    bodies.position[i] += flown * flown * (before.forced_v[i] - before.v[i]) * (time_step / 2);
                 }
                 continue;
             }
-            const Vec3 missing = (bodies.v[i] - before.v[i]) * (time_step / 2);
+            const Vec3 missing = flown * flown * (bodies.v[i] - before.v[i]) * (time_step / 2);
             // Added to the way first, where nothing else moved the body: in free fall it is the same in all steps, and
             // would be rounded in the same direction in all of them.
-            const Vec3& begun = before.position[i];
+            const Vec3& begun = before.way[i].begin.position;
             if (bodies.position[i] == begun + bodies.linear_step[i]) {
                 bodies.position[i] = begun + (bodies.linear_step[i] + missing);
             } else {
                 bodies.position[i] += missing;
             }
             const Vec3 dw = bodies.w[i] - before.w[i];
-            if (dw.isZero(0)) continue;
+            if (dw.isZero(0) || flown < 1) continue;
             rotateUniformly(bodies.orientation[i], dw / 2, time_step);
             bodies.inertiaInv_W[i] = toWorldInertia(bodies.inertiaInv_B[i], bodies.orientation[i]);
         }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "body/body_storage.h"
+#include "body/body_way.h"
 #include "body/contact.h"
 #include "cairn/settings.h"
 #include "parallel/executor.h"
@@ -29,10 +30,10 @@ void advancePosition(BodyStorage& bodies, BodyIndex i, double time_step);
 /// @param time_step [s]
 void advancePositions(BodyStorage& bodies, double time_step, const Executor& executor);
 
-/// Positions before a step, velocities before its forces acted, and how far those changed them. One entry per slot; the
-/// vectors keep their memory.
+/// The ways of bodies, velocities before the forces of a step acted, and how far those changed them. One entry per
+/// slot; the vectors keep their memory.
 struct VelocitiesBefore {
-    std::vector<Vec3> position;  ///< with exact_flight: at the beginning of the step [m, W]
+    std::vector<BodyWay> way;
     std::vector<Vec3> v;         ///< [m/s, W]
     std::vector<Vec3> w;         ///< [rad/s, W]
     std::vector<double> forced;  ///< by the forces, at most, of any point of the body [m/s]
@@ -41,8 +42,14 @@ struct VelocitiesBefore {
     std::vector<Vec3> lift;             ///< with RestitutionSpeed::touching: out of what the body bounces off [m, W]
 };
 
-/// Notes the positions before advancePositions(). @param before out
-void savePositions(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before);
+/// Notes where bodies are before advancePositions(). @param placed somebody else put bodies where they are: nothing is
+/// known of a way there @param before out
+void beginWays(const BodyStorage& bodies, bool placed, const Executor& executor, VelocitiesBefore& before);
+/// Takes a body back on its way. Its clock stands still from there to the end of the flight: its velocity has less of
+/// what forces will give, so that its energy stays what it was. @param place less than way.place @param acceleration
+/// sum of the global accelerations [m/s², W] @param time_step of the flight [s] @param way in and out
+void flyBack(BodyStorage& bodies, BodyIndex i, double place, const Vec3& acceleration, const SleepSettings& settings,
+             double time_step, BodyWay& way);
 /// Notes the velocities before advanceVelocities(). @param before out
 void saveVelocities(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before);
 /// Notes what the forces changed, between advanceVelocities() and the resolution. @param before in and out
@@ -65,7 +72,7 @@ void liftBounced(BodyStorage& bodies, const VelocitiesBefore& before);
 /// the exact parabola; bodies at rest, whose velocity does not change, stay where they are. Where an impact changed the
 /// velocity by more than forces could, the mean means nothing: then a body that bounced completes the parabola until
 /// the impact, without which its energy would rise by that of the way that forces gave it, and others are left alone.
-/// @pre savePositions() and saveForced() in this step, and the resolution is done @param jointed [slots] 1 = left to
+/// @pre beginWays() and saveForced() in this step, and the resolution is done @param jointed [slots] 1 = left to
 /// JointFlight; empty = none is @param time_step [s]
 void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, std::span<const std::uint8_t> jointed,
                           double time_step, const Executor& executor);

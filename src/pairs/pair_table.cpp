@@ -170,19 +170,41 @@ void PairTable::detect(const PairsInput& input, std::vector<Contact>& contacts) 
     neighbours_.update({bodies.kind, bounds_, bodies.v, unmoved_}, input.broad_phase, input.executor);
     for (FoundContacts& part : parts_) part.clear();
     forParts(input.executor, [&](FoundContacts& part) { detectPairs(input, contacts, part); });
+    join(input, contacts);
+    known_ = true;
+}
+
+void PairTable::detectBack(const PairsInput& input, std::span<const std::uint8_t> back,
+                           std::vector<Contact>& contacts) {
+    BodyStorage& bodies = input.bodies;
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        unmoved_[i] = back[i] == 0 ? 1 : 0;
+        if (back[i] != 0) findBoundsOf(bodies, i);
+    }
+    neighbours_.update({bodies.kind, bounds_, bodies.v, unmoved_}, input.broad_phase, input.executor);
+    for (FoundContacts& part : parts_) part.clear();
+    forParts(input.executor, [&](FoundContacts& part) { detectPairsBack(input, contacts, back, part); });
+    join(input, contacts);
+}
+
+/// Makes the contacts of what the threads found.
+void PairTable::join(const PairsInput& input, std::vector<Contact>& contacts) {
     addFirst(input.executor);
     const std::size_t before = contacts.size();
-    joiner_.join(bodies, input.materials, input.executor, parts_, contacts);
+    joiner_.join(input.bodies, input.materials, input.executor, parts_, contacts);
     const bool others = std::ranges::any_of(parts_, [](const FoundContacts& part) { return part.others; });
     if (others || contacts.size() != before) ++layout_;
-    input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
+    noteDetected(input.bodies, input.executor);
+}
+
+void PairTable::noteDetected(BodyStorage& bodies, const Executor& executor) const {
+    executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             if (bodies.kind[i] == BodyKind::hole) continue;
             bodies.detected_position[i] = bodies.position[i];
             bodies.detected_orientation[i] = bodies.orientation[i];
         }
     });
-    known_ = true;
 }
 
 void PairTable::followStruck(const PairsInput& input, double fastest, std::vector<Contact>& contacts,
@@ -215,53 +237,6 @@ void PairTable::followStruck(const PairsInput& input, double fastest, std::vecto
         }
     }
     std::ranges::sort(added);
-}
-
-void PairTable::adopt(std::span<const Contact> contacts) {
-    ++layout_;
-    neighbours_.begin(contacts);
-    known_ = false;
-    bounds_.clear();
-}
-
-void PairTable::change(const PairChange& change, std::vector<Contact>& contacts) {
-    ++layout_;
-    changed_pairs_.clear();
-    changed_contacts_.clear();
-    auto next = change.contacts.begin();
-    const auto addCameBefore = [&](const BodyPair& end) {
-        while (next != change.contacts.end() && BodyPair{next->a, next->b} < end) {
-            ContactPair pair{{next->a, next->b}, static_cast<std::uint32_t>(changed_contacts_.size()), 0};
-            for (; next != change.contacts.end() && next->a == pair.a && next->b == pair.b; ++next, ++pair.count) {
-                changed_contacts_.push_back(*next);
-            }
-            changed_pairs_.push_back(pair);
-        }
-    };
-    for (ContactPair pair : pairs()) {
-        if ((change.left[pair.a] | change.left[pair.b]) != 0) continue;
-        addCameBefore(pair);
-        if (pair.touches()) {
-            const auto first = contacts.begin() + pair.first;
-            pair.first = static_cast<std::uint32_t>(changed_contacts_.size());
-            changed_contacts_.insert(changed_contacts_.end(), first, first + pair.count);
-        }
-        changed_pairs_.push_back(pair);
-    }
-    addCameBefore({UINT32_MAX, UINT32_MAX});
-    neighbours_.replace(change.left, changed_pairs_);
-    contacts.swap(changed_contacts_);
-    came_.insert(came_.end(), change.came.begin(), change.came.end());
-}
-
-void PairTable::rearrange(const SlotMove& move) {
-    ++layout_;
-    neighbours_.rearrange(move);
-    cairn::rearrange(ahead_, move, {});
-    cairn::rearrange(unmoved_, move, 0);
-    cairn::rearrange(bounds_, move, {});
-    for (BodyIndex& body : came_) body = move(body);
-    std::erase(came_, no_slot);
 }
 
 /// Compares every body with where it was detected last.
@@ -297,11 +272,20 @@ void PairTable::findBounds(const PairsInput& input) {
             const bool same = range_.foresight.time == 0 || (bodies.asleep[i] != 0 && ahead_[i].reach == 0);
             settled_[i] = asks_all_ ? 0 : unmoved_[i];
             if (bodies.kind[i] == BodyKind::hole || (unmoved_[i] != 0 && same)) continue;
-            bounds_[i] = searchedBounds(bodies, range_, i, ahead_[i]);
+            findBoundsOf(bodies, i);
             if (ahead_[i].reach > 0) settled_[i] = 0;
         }
     });
     asks_all_ = false;
+}
+
+/// Whoever flew far may have met others on the way.
+void PairTable::findBoundsOf(const BodyStorage& bodies, BodyIndex i) {
+    bounds_[i] = searchedBounds(bodies, range_, i, ahead_[i]);
+    if (range_.foresight.time == 0 || !(bodies.linear_step[i].norm() > bodies.r_min[i])) return;
+    const Vec3 begun = bodies.position[i] - bodies.linear_step[i];
+    bounds_[i].lower = bounds_[i].lower.cwiseMin((begun.array() - bodies.r_max[i]).matrix());
+    bounds_[i].upper = bounds_[i].upper.cwiseMax((begun.array() + bodies.r_max[i]).matrix());
 }
 
 /// Divides the pairs into parts, one per thread. @param work called with a part
@@ -416,6 +400,23 @@ void PairTable::detectPairs(const PairsInput& input, std::span<const Contact> la
         if (settled && pair.count == 0) continue;
         const std::uint32_t before = pair.touches() ? pair.count : 0;
         detectPair(input, last, settled, manifold, pair, part);
+        part.others = part.others || (pair.touches() ? pair.count : 0) != before;
+    }
+}
+
+/// Likewise, of those with a body that went back.
+void PairTable::detectPairsBack(const PairsInput& input, std::span<const Contact> last,
+                                std::span<const std::uint8_t> back, FoundContacts& part) {
+    Manifold manifold;
+    for (ContactPair& pair : neighbours_.pairs().subspan(part.pair_begin, part.pair_end - part.pair_begin)) {
+        const std::uint32_t before = pair.touches() ? pair.count : 0;
+        if ((back[pair.a] | back[pair.b]) != 0 || !pair.isTested()) {
+            detectPair(input, last, false, manifold, pair, part);
+        } else {
+            const std::size_t first = part.count;
+            part.add(pair.first, before, true);
+            pair.first = static_cast<std::uint32_t>(first);
+        }
         part.others = part.others || (pair.touches() ? pair.count : 0) != before;
     }
 }

@@ -50,6 +50,10 @@ class PairTable {
     ///        reference_impulse; out: sorted by (a, b) @throws InputError beyond most_contacts
     void detect(const PairsInput& input, std::vector<Contact>& contacts);
 
+    /// Finds the contacts of some bodies once more, since they went back where they came from. @pre detect() was the
+    /// last call, or this @param back [slots] 1 = it did @param contacts as of detect()
+    void detectBack(const PairsInput& input, std::span<const std::uint8_t> back, std::vector<Contact>& contacts);
+
     /// Finds the contacts that nobody foresaw, since a body of theirs was struck by the resolution, and adds them
     /// behind those of their pairs; contacts that would not keep their bodies apart after all are tightened. @pre
     /// detect() was the last call, and it looked ahead
@@ -89,6 +93,11 @@ class PairTable {
     void detectPair(const PairsInput& input, std::span<const Contact> last, bool settled, Manifold& manifold,
                     ContactPair& pair, FoundContacts& part);
     void detectPairs(const PairsInput& input, std::span<const Contact> last, FoundContacts& part);
+    void detectPairsBack(const PairsInput& input, std::span<const Contact> last, std::span<const std::uint8_t> back,
+                         FoundContacts& part);
+    void findBoundsOf(const BodyStorage& bodies, BodyIndex i);
+    void join(const PairsInput& input, std::vector<Contact>& contacts);
+    void noteDetected(BodyStorage& bodies, const Executor& executor) const;
     bool findStruck(const PairsInput& input, const DetectionRange& range, double fastest);
     void followPairs(const PairsInput& input, const DetectionRange& range, std::span<const Contact> contacts,
                      FoundContacts& part);

@@ -246,14 +246,16 @@ void SharedBodies::packResident(std::vector<std::byte>& message, const DealtOut&
     pack(message, Item::body);
     pack(message, world.bodies.homeOf(i));
     packWhole(message, world.bodies, i);
-    if (world.begun != nullptr) pack(message, (*world.begun)[i]);
+    if (world.begun != nullptr) forMembers((*world.begun)[i], [&](const auto& member) { pack(message, member); });
 }
 
 BodyIndex SharedBodies::unpackResident(Unpacker& in, const DealtOut& world) {
     const BodyIndex i = world.bodies.slotOf(in.get<BodyIndex>());
     unpackWhole(in, world.bodies, i);
     owner_[i] = static_cast<std::uint32_t>(ranks_.rank());
-    if (world.begun != nullptr) (*world.begun)[i] = in.get<Vec3>();
+    if (world.begun != nullptr) {
+        forMembers((*world.begun)[i], [&](auto& member) { member = in.get<std::remove_cvref_t<decltype(member)>>(); });
+    }
     return i;
 }
 

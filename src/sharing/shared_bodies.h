@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "body/body_storage.h"
+#include "body/body_way.h"
 #include "body/contact.h"
 #include "cairn/ranks.h"
 #include "joints/joint.h"
@@ -28,7 +29,7 @@ struct DealtOut {
     std::vector<Contact>& contacts;  ///< of the last step, sorted by (a, b)
     std::span<Joint> joints;
     std::span<const BodyIndex> named;  ///< bodies that keep a slot on all ranks, since lasting things name them
-    std::vector<Vec3>* begun;          ///< [slots] positions at the beginning of the step, or null [m, W]
+    std::vector<BodyWay>* begun;       ///< [slots] ways since the last detection, or null
     std::vector<BodyPair>& tied;       ///< bodies that belong together, wherever they are
     BroadPhase& search;                ///< of the detection that follows
     const DetectionRange& range;       ///< likewise

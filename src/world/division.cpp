@@ -10,6 +10,7 @@
 #include "messages/packing.h"
 #include "world/couplings.h"
 #include "world/joints.h"
+#include "world/parts.h"
 #include "world/step_statistics.h"
 
 namespace cairn {
@@ -79,7 +80,7 @@ void rearrangeAll(WorldState& world, const SlotMove& move) {
         contact.a = move(contact.a);
         contact.b = move(contact.b);
     }
-    rearrange(data.before.position, move, Vec3::Zero());
+    rearrange(data.before.way, move, {});
     rearrange(data.carried, move, Carried::not_at_all);
     rearrange(world.events.asleep_before, move, 0);
     // Of a body that was added after the last step nothing is known; one that comes is the same as in the last step.
@@ -171,7 +172,7 @@ void settleShared(WorldState& world, const DetectionRange& range, double speed, 
     DealtOut dealt = dealtOut(world, tied, range, speed);
     const std::vector<BodyIndex> named = was_whole ? namedBodies(world) : std::vector<BodyIndex>();
     dealt.named = named;
-    if (flown && world.settings.integration.exact_flight) dealt.begun = &data.before.position;
+    if (flown && notesWays(world.settings)) dealt.begun = &data.before.way;
     const std::uint64_t layout = world.bodies.layoutVersion();
     shared.settle(dealt);
     data.fastest = shared.fastest();

@@ -95,6 +95,10 @@ bool foresees(const Settings& settings) {
            settings.resolution.restitution_speed == RestitutionSpeed::closing;
 }
 
+bool notesWays(const Settings& settings) {
+    return settings.integration.exact_flight || foresees(settings);
+}
+
 void beginPart(WorldState& world, int done) {
     world.part = {world.next_part.units, done, stepLength(world, world.next_part.units), world.part.units};
 }

@@ -13,6 +13,9 @@ namespace cairn {
 /// each other.
 bool foresees(const Settings& settings);
 
+/// Whether it is noted from where bodies fly.
+bool notesWays(const Settings& settings);
+
 /// Begins the next part of the step. @param done units of the step before it
 void beginPart(WorldState& world, int done);
 

@@ -5,6 +5,7 @@
 
 #include "batches/batch_motion.h"
 #include "resolution/contact_law.h"
+#include "resolution/energy_gain.h"
 #include "world/checks.h"
 #include "world/joints.h"
 #include "world/pair_laws.h"
@@ -117,8 +118,11 @@ void finishAgain(StepData& data, const BodyState& bodies, const FollowedGroup& g
     }
 }
 
+/// Whether a group that is resolved again may go back to before.
+enum class GoesBack { where_nothing_bounced, never };
+
 /// Resolves groups of contacts once more.
-void resolveAgain(WorldState& world, BodyState& bodies, std::span<const BatchView> groups) {
+void resolveGroups(WorldState& world, BodyState& bodies, std::span<const BatchView> groups, GoesBack goes_back) {
     StepData& data = world.data;
     // Where impacts follow each other, what sweeps left closing is the next one.
     const bool each_bounces = world.settings.resolution.impacts == Impacts::sequential;
@@ -135,7 +139,7 @@ void resolveAgain(WorldState& world, BodyState& bodies, std::span<const BatchVie
             strikes = strikes || struck;
             bounced = bounced || (!added && hasBounced(data.contacts[i], bodies, world.settings.resolution));
         }
-        data.followed.push_back({view, strikes || bounced});
+        data.followed.push_back({view, strikes || bounced || goes_back == GoesBack::never});
         beginAgain(data, bodies, data.followed.back());
         if (!data.followed.back().later || each_bounces) continue;
         // What sweeps left closing had its bounce.
@@ -149,6 +153,51 @@ void resolveAgain(WorldState& world, BodyState& bodies, std::span<const BatchVie
         finishAgain(data, bodies, group, resolved.first(group.view.contacts.size()));
         resolved = resolved.subspan(group.view.contacts.size());
     }
+}
+
+/// Lists the groups that went back and have more kinetic energy now than before, though nothing gave them any, and
+/// undoes what was done to them.
+void undoGains(WorldState& world, const BodyState& bodies, std::span<const BodyMotion> before) {
+    StepData& data = world.data;
+    data.gained.clear();
+    std::span<const Contact> resolved = data.resolved;
+    for (const FollowedGroup& group : data.followed) {
+        const BatchView& view = group.view;
+        const auto contacts = resolved.first(view.contacts.size());
+        const auto motions = before.first(view.bodies.size());
+        resolved = resolved.subspan(contacts.size());
+        before = before.subspan(motions.size());
+        if (group.later || !view.joints.empty() || !hasStillSupports(view, data.contacts, bodies)) continue;
+        EnergyGain gain;
+        double energy = 0;
+        for (std::size_t n = 0; n < motions.size(); ++n) {
+            const BodyIndex i = view.bodies[n];
+            gain.add(bodies, i, motions[n], {bodies.v[i], bodies.w[i]});
+            energy += kineticEnergyOf(bodies, i, motions[n]);
+        }
+        if (!(gain.whole() > energy_rounding * energy)) continue;
+        for (std::size_t n = 0; n < motions.size(); ++n) {
+            bodies.v[view.bodies[n]] = motions[n].v;
+            bodies.w[view.bodies[n]] = motions[n].w;
+        }
+        for (std::size_t n = 0; n < contacts.size(); ++n) data.contacts[view.contacts[n]] = contacts[n];
+        data.gained.push_back(view);
+    }
+}
+
+/// Likewise. Bodies at the edge of a group keep what other contacts gave them, so that going back to before may raise
+/// the energy: where it did, what is missing is added to what was resolved before. (Where impacts are resolved one
+/// after the other, what a first resolution took from them may come back.)
+void resolveAgain(WorldState& world, BodyState& bodies, std::span<const BatchView> groups) {
+    StepData& data = world.data;
+    data.motions.clear();
+    for (const BatchView& view : groups) {
+        for (const BodyIndex i : view.bodies) data.motions.push_back({bodies.v[i], bodies.w[i]});
+    }
+    resolveGroups(world, bodies, groups, GoesBack::where_nothing_bounced);
+    if (world.settings.resolution.impacts == Impacts::sequential) return;
+    undoGains(world, bodies, data.motions);
+    if (!data.gained.empty()) resolveGroups(world, bodies, data.gained, GoesBack::never);
 }
 
 /// Resolves the surroundings of the contacts that were added or left closing. Bodies with joints take no part.

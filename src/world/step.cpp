@@ -8,6 +8,7 @@
 #include "integration/integration.h"
 #include "pairs/warm_start.h"
 #include "world/checks.h"
+#include "world/clamping.h"
 #include "world/diagnostics.h"
 #include "world/division.h"
 #include "world/events.h"
@@ -89,6 +90,7 @@ void detect(WorldState& world, bool begins) {
     if (begins) world.data.pairs.beginStep(world.bodies, world.data.generation);
     beginContacts(world.data.contacts, contactsBegin(world, warmStart(world)), world.executor);
     world.data.pairs.detect(pairsInput(world, range), world.data.contacts);
+    if (world.part.units > 0 && foresees(world.settings)) clampMotion(world, pairsInput(world, range));
     if (!shortenNextPart(world)) return;
     const DetectionRange shorter = rangeOf(world);
     world.data.pairs.detect(pairsInput(world, shorter), world.data.contacts);
@@ -97,6 +99,7 @@ void detect(WorldState& world, bool begins) {
 /// Velocities that users gave were granted by no resolution: impacts that they would make in this step are resolved
 /// before bodies fly on with them. @return whether the detections of the step have begun
 bool grantLaunched(WorldState& world) {
+    world.was_placed = world.launched;
     if (!std::exchange(world.launched, false)) return false;
     // In no time, so that forces act later in the step.
     world.part = {.units = 0};
@@ -275,7 +278,10 @@ void repeatStep(WorldState& world) {
 
 void flyStage(WorldState& world) {
     const double time = world.part.length;
-    if (world.settings.integration.exact_flight) savePositions(world.bodies, world.executor, world.data.before);
+    if (notesWays(world.settings)) {
+        const bool placed = world.was_placed && world.part.isFirst();
+        beginWays(world.bodies, placed, world.executor, world.data.before);
+    }
     const JointFlight::Motion motion{world.settings.integration, world.settings.sleep,
                                      world.gravity + world.global_acceleration, time, world.data.contacts};
     world.joint_flight.begin(world.joints, world.data.joint_groups, world.bodies, motion);

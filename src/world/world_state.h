@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "activity/selection.h"
+#include "batches/batch_motion.h"
 #include "batches/batches.h"
 #include "batches/schedule.h"
 #include "batches/surroundings.h"
@@ -25,6 +26,7 @@
 #include "joints/joint_groups.h"
 #include "math/exact_sum.h"
 #include "pairs/pair_table.h"
+#include "pairs/way_back.h"
 #include "parallel/executor.h"
 #include "parallel/help_choice.h"
 #include "queries/spatial_index.h"
@@ -106,13 +108,17 @@ struct StepData {
     std::vector<BodyPair> excluded;     ///< events: pairs that joints keep from touching, sorted
     std::vector<Sensed> sensed;         ///< detection: by sensor and body
     std::vector<double> fastest_of;     ///< detection: [threads] kept memory
-    std::vector<double> shortest_of;    ///< detection: [threads] kept memory
-    double fastest = 0;                 ///< detection: how fast bodies may be that are struck in the step [m/s]
-    std::vector<Vec3> surface;          ///< velocities: [slots] of fixed bodies' surfaces [m/s, W]; or empty
-    std::vector<Carried> carried;       ///< velocities: [slots] by a moving law that their batch touches; or empty
-    std::vector<std::uint8_t> not_sleeping;           ///< sleeping: [slots] 1 = does not fall asleep by itself
-    std::vector<JointBlock> joint_blocks;             ///< resolution: batch after batch, in it group after group
-    std::vector<std::uint32_t> joint_begin;           ///< resolution: [batches + 1] offsets into joint_blocks
+    std::vector<std::vector<TooDeep>> too_deep;  ///< detection: [threads] kept memory
+    std::vector<std::uint8_t> stuck;             ///< detection: [slots] 1 = began deep in others
+    std::vector<double> go_back_to;              ///< detection: [slots] kept memory
+    std::vector<std::uint8_t> back;              ///< detection: [slots] kept memory
+    std::vector<double> shortest_of;             ///< detection: [threads] kept memory
+    double fastest = 0;                      ///< detection: how fast bodies may be that are struck in the step [m/s]
+    std::vector<Vec3> surface;               ///< velocities: [slots] of fixed bodies' surfaces [m/s, W]; or empty
+    std::vector<Carried> carried;            ///< velocities: [slots] by a moving law that their batch touches; or empty
+    std::vector<std::uint8_t> not_sleeping;  ///< sleeping: [slots] 1 = does not fall asleep by itself
+    std::vector<JointBlock> joint_blocks;    ///< resolution: batch after batch, in it group after group
+    std::vector<std::uint32_t> joint_begin;  ///< resolution: [batches + 1] offsets into joint_blocks
     std::vector<std::uint32_t> joint_cursor;          ///< resolution: kept memory
     std::vector<BrokenJoint> broken;                  ///< resolution: by slot
     std::vector<std::int32_t> supports;               ///< velocities: [slots] contacts in the direction of gravity
@@ -126,6 +132,8 @@ struct StepData {
     std::vector<std::uint32_t> seeds;                 ///< resolution: all of both, ascending
     Surroundings surroundings;                        ///< resolution: of the seeds
     std::vector<FollowedGroup> followed;              ///< resolution: the same, group after group
+    std::vector<BodyMotion> motions;                  ///< resolution: of their bodies before it went on
+    std::vector<BatchView> gained;                    ///< resolution: groups that are resolved otherwise
     std::vector<Contact> resolved;                    ///< resolution: their contacts before it went on
     std::vector<std::uint32_t> launched;              ///< positions: batches of launched jointed bodies, ascending
     std::vector<BatchView> launched_views;            ///< positions: the same
@@ -211,11 +219,12 @@ struct WorldState {
     std::unique_ptr<SharedBodies> shared;  ///< with other ranks; null = the world is on one
 
     std::vector<double>
-        dealt_extents;      ///< middle ones of all bodies that move and were dealt out, until the first step
-    StepPart part;          ///< of the step that is computed
-    NextPart next_part;     ///< after it, or of the next step
-    bool launched = false;  ///< a user gave a body a velocity or a place since the last step
-    int still_steps = 0;    ///< last steps that everybody slept through, without a call since
+        dealt_extents;        ///< middle ones of all bodies that move and were dealt out, until the first step
+    StepPart part;            ///< of the step that is computed
+    NextPart next_part;       ///< after it, or of the next step
+    bool launched = false;    ///< a user gave a body a velocity or a place since the last step
+    bool was_placed = false;  ///< the same, before the step that is computed
+    int still_steps = 0;      ///< last steps that everybody slept through, without a call since
     std::int64_t steps = 0;
     double time = 0;                  ///< [s]
     bool sized = false;               ///< bodies have told how many time steps they need

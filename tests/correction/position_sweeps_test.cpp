@@ -93,6 +93,38 @@ TEST(PositionSweeps, TurnABodyAboutTheFootThatIsTooDeep) {
     EXPECT_NEAR(scene.contacts[0].distance, -0.006, 1e-12);
 }
 
+TEST(PositionSweeps, TurnNoFartherThanWhatTouchesStaysWhatItIs) {
+    SweepsScene scene;
+    const BodyIndex floor = scene.addFixed(Vec3::Zero());
+    const BodyIndex body = scene.addBody(Vec3(0, 0, 0.5));
+    scene.touch(body, floor, up, -0.09);
+    scene.contacts[0].point = Vec3(0.5, 0, 0);
+    scene.run();
+    const double lever = Vec3(0.5, 0, -0.5).norm();
+    EXPECT_LE(Eigen::AngleAxisd(scene.orientation[body]).angle(), 3 * SweepsScene::threshold / lever * (1 + 1e-12));
+    EXPECT_GT(scene.position[body].z(), 0.5);
+}
+
+TEST(PositionSweeps, LeaveWhoIsJammedRatherThanPressItIntoOthers) {
+    // Between two walls there is no room for all.
+    SweepsScene scene;
+    const BodyIndex left = scene.addFixed(Vec3::Zero());
+    const BodyIndex right = scene.addFixed(Vec3(10, 0, 0));
+    std::vector<BodyIndex> row;
+    for (int i = 0; i < 9; ++i) row.push_back(scene.addBody(Vec3(i + 1, 0, 0)));
+    scene.touch(row.front(), left, Vec3::UnitX(), -0.09);
+    for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+        scene.touch(row[i + 1], row[i], Vec3::UnitX(), -0.01);
+    }
+    scene.touch(right, row.back(), Vec3::UnitX(), -0.01);
+    std::vector<double> before;
+    for (const Contact& contact : scene.contacts) before.push_back(contact.distance);
+    scene.run();
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        EXPECT_GE(scene.contacts[i].distance, std::min(before[i], -1.35 * SweepsScene::threshold) - 1e-12) << i;
+    }
+}
+
 TEST(PositionSweeps, MoveThePairByInverseMasses) {
     SweepsScene scene;
     const BodyIndex light = scene.addBody();

@@ -1,0 +1,46 @@
+/// @file Motion clamping: how far bodies that got too deep into each other on their ways have to go back.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "body/body_way.h"
+#include "body/contact.h"
+#include "broad_phase/neighbour_list.h"
+#include "pairs/foreseen.h"
+#include "parallel/executor.h"
+
+namespace cairn {
+
+/// Two bodies that got too deep into each other.
+struct TooDeep {
+    BodyPair pair;
+    double place = 0;  ///< as of BodyWay: to where both go back that got farther
+};
+
+/// What is known of the ways.
+struct WaysInput {
+    const BodyStorage& bodies;
+    std::span<const ContactPair> pairs;
+    std::span<const Contact> contacts;
+    const DetectionRange& range;
+    std::span<const BodyWay> ways;          ///< [slots]
+    std::span<const std::uint8_t> jointed;  ///< [slots] 1 = does not go back; empty = none
+    std::span<const std::uint8_t> stuck;    ///< [slots] 1 = does not go back, as findStuck() found
+    std::span<const std::uint8_t> back;     ///< [slots] of those that went back since all were asked; empty = ask all
+    const Executor& executor;
+};
+
+/// Finds bodies that were far deeper in others already where they were detected before than impacts and weights lead,
+/// as a scene or a user put them: they come apart only through each other.
+/// @param stuck out: [slots] 1 = is one of them
+void findStuck(const WaysInput& input, std::vector<std::uint8_t>& stuck);
+
+/// Whether a body may go back.
+bool mayGoBack(const WaysInput& input, BodyIndex i);
+
+/// Finds the pairs whose bodies are deeper in each other than they may be in a fall and were where they were detected
+/// before, and those of which one flew through the other. @param found out: by thread, in the order of the pairs
+void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& found);
+
+}  // namespace cairn

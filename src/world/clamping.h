@@ -1,0 +1,13 @@
+/// @file Motion clamping: bodies that got too deep into each other, or flew through each other, whatever was foreseen
+/// and resolved, go back to where they were not.
+#pragma once
+
+#include "world/world_state.h"
+
+namespace cairn {
+
+/// Takes back bodies until no two are deeper in each other than allowed in a fall, unless they were before.
+/// @pre the pairs were detected where bodies are now, and are so again then
+void clampMotion(WorldState& world, const PairsInput& pairs);
+
+}  // namespace cairn

@@ -1,0 +1,129 @@
+/// How far bodies go back that got too deep into each other on their ways.
+#include "pairs/way_back.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "broad_phase/hash_grids.h"
+#include "pairs/pair_table.h"
+
+namespace cairn {
+namespace {
+
+constexpr double allowed = 0.03;  ///< [m]
+
+/// Two balls of radius 1, of which the second may have moved.
+struct TwoBalls {
+    BodyStorage bodies;
+    MaterialTable materials;
+    HashGrids broad_phase;
+    DetectionRange range{.threshold = allowed, .foresight = {.time = 1e-9}};
+    Executor executor;
+    PairTable pairs;
+    std::vector<Contact> contacts;
+    std::vector<BodyWay> ways;
+    std::vector<std::uint8_t> jointed;
+
+    TwoBalls() {
+        materials.add({.name = "matter", .density = 1});
+        add(Vec3::Zero());
+    }
+    BodyIndex add(const Vec3& position) {
+        const BodyIndex i = bodies.allocate(BodyKind::dynamic);
+        bodies.shape[i] = Sphere{1};
+        bodies.r_max[i] = bodies.r_min[i] = 1;
+        bodies.position[i] = position;
+        const Pose here{position, Quat::Identity()};
+        ways.push_back({here, here});
+        return i;
+    }
+    /// A ball that was detected at one place, began to fly at another and is at a third now, along x.
+    void addOnWay(double detected, double begun, double now) {
+        const BodyIndex i = add(Vec3(now, 0, 0));
+        ways[i].from.position = Vec3(detected, 0, 0);
+        ways[i].begin.position = Vec3(begun, 0, 0);
+        bodies.linear_step[i] = Vec3(now - begun, 0, 0);
+    }
+    std::vector<TooDeep> find() {
+        pairs.detect({bodies, materials, broad_phase, {}, range, executor}, contacts);
+        std::vector<std::vector<TooDeep>> found;
+        findTooDeep({bodies, pairs.pairs(), contacts, range, ways, jointed, {}, {}, executor}, found);
+        std::vector<TooDeep> all;
+        for (const std::vector<TooDeep>& part : found) all.insert(all.end(), part.begin(), part.end());
+        return all;
+    }
+};
+
+TEST(WayBack, LeadsToWhereBodiesWereAsDeepAsTheyMayBe) {
+    TwoBalls balls;
+    balls.addOnWay(2.4, 2.4, 1.6);
+    const std::vector<TooDeep> found = balls.find();
+    ASSERT_EQ(found.size(), 1);
+    const double x = 2.4 - 0.8 * (found[0].place - BodyWay::begun);
+    EXPECT_GE(x, 2 - 2 * allowed);
+    EXPECT_LE(x, 2);
+}
+
+TEST(WayBack, LeavesBodiesThatAreHardlyInEachOther) {
+    TwoBalls balls;
+    balls.addOnWay(2.4, 2.4, 2 - 1.9 * allowed);
+    EXPECT_TRUE(balls.find().empty());
+}
+
+TEST(WayBack, LeadsToBeforeTheBodyThatWasFlownThrough) {
+    TwoBalls balls;
+    balls.addOnWay(5, 5, -5);
+    const std::vector<TooDeep> found = balls.find();
+    ASSERT_EQ(found.size(), 1);
+    const double x = 5 - 10 * (found[0].place - BodyWay::begun);
+    EXPECT_GE(x, 2 - 2 * allowed - 1e-12);
+    EXPECT_LE(x, 2);
+}
+
+TEST(WayBack, TakesBackWhatTheCorrectionPushed) {
+    TwoBalls balls;
+    balls.addOnWay(2, 1.9, 1.85);
+    const std::vector<TooDeep> found = balls.find();
+    ASSERT_EQ(found.size(), 1);
+    EXPECT_LT(found[0].place, BodyWay::begun);
+    const double x = 2 - 0.1 * found[0].place;
+    EXPECT_GE(x, 2 - 2 * allowed);
+}
+
+TEST(WayBack, LeavesWhoWasDeepBeforeAndGetsNoDeeper) {
+    TwoBalls balls;
+    balls.addOnWay(1.8, 1.8, 1.81);
+    EXPECT_TRUE(balls.find().empty());
+    TwoBalls deeper;
+    deeper.addOnWay(1.8, 1.8, 1.79);
+    const std::vector<TooDeep> found = deeper.find();
+    ASSERT_EQ(found.size(), 1);
+    EXPECT_EQ(found[0].place, BodyWay::begun);
+}
+
+TEST(WayBack, IsNotForJointedBodies) {
+    TwoBalls balls;
+    balls.addOnWay(2.4, 2.4, 1.6);
+    balls.jointed = {1, 1};
+    EXPECT_TRUE(balls.find().empty());
+}
+
+TEST(WayBack, IsAPoseOnTheWay) {
+    BodyWay way;
+    way.from.position = Vec3(0, 0, 0);
+    way.begin.position = Vec3(1, 0, 0);
+    const Pose now{Vec3(1, 2, 0), Quat::Identity()};
+    EXPECT_EQ(poseOnWay(now, way, BodyWay::detected).position, Vec3(0, 0, 0));
+    EXPECT_EQ(poseOnWay(now, way, 0.5).position, Vec3(0.5, 0, 0));
+    EXPECT_EQ(poseOnWay(now, way, BodyWay::begun).position, Vec3(1, 0, 0));
+    EXPECT_EQ(poseOnWay(now, way, 1.5).position, Vec3(1, 1, 0));
+    EXPECT_EQ(poseOnWay(now, way, BodyWay::flown).position, Vec3(1, 2, 0));
+    // It flew half of its flight only.
+    way.place = 1.5;
+    EXPECT_EQ(poseOnWay(now, way, 1.25).position, Vec3(1, 1, 0));
+    EXPECT_EQ(poseOnWay(now, way, BodyWay::flown).position, Vec3(1, 2, 0));
+}
+
+}  // namespace
+}  // namespace cairn
