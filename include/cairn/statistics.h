@@ -41,7 +41,7 @@ struct Diagnostics {
     double energy_friction = 0;     ///< work of friction, that against rolling included [J]
     double energy_restitution = 0;  ///< work of the contacts along their normals [J]
     double energy_joints = 0;       ///< work of joints, motors included [J]
-    double energy_correction = 0;   ///< potential energy by the penetration correction [J]
+    double energy_correction = 0;   ///< potential energy by the correction, and what going back on ways takes [J]
     double energy_drives = 0;       ///< of bodies, a frame or a gravity that follow a law [J]
     double energy_sleep = 0;        ///< of bodies that fell asleep [J]
     double energy_error = 0;        ///< what no account explains: rounding, and what the shock propagation takes [J]

@@ -187,18 +187,15 @@ void PairTable::detectBack(const PairsInput& input, std::span<const std::uint8_t
     join(input, contacts);
 }
 
-/// Makes the contacts of what the threads found.
+/// Makes the contacts of what the threads found, and notes where bodies were then.
 void PairTable::join(const PairsInput& input, std::vector<Contact>& contacts) {
     addFirst(input.executor);
     const std::size_t before = contacts.size();
     joiner_.join(input.bodies, input.materials, input.executor, parts_, contacts);
     const bool others = std::ranges::any_of(parts_, [](const FoundContacts& part) { return part.others; });
     if (others || contacts.size() != before) ++layout_;
-    noteDetected(input.bodies, input.executor);
-}
-
-void PairTable::noteDetected(BodyStorage& bodies, const Executor& executor) const {
-    executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
+    BodyStorage& bodies = input.bodies;
+    input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             if (bodies.kind[i] == BodyKind::hole) continue;
             bodies.detected_position[i] = bodies.position[i];

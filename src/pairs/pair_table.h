@@ -97,7 +97,6 @@ class PairTable {
                          FoundContacts& part);
     void findBoundsOf(const BodyStorage& bodies, BodyIndex i);
     void join(const PairsInput& input, std::vector<Contact>& contacts);
-    void noteDetected(BodyStorage& bodies, const Executor& executor) const;
     bool findStruck(const PairsInput& input, const DetectionRange& range, double fastest);
     void followPairs(const PairsInput& input, const DetectionRange& range, std::span<const Contact> contacts,
                      FoundContacts& part);

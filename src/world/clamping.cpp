@@ -43,13 +43,16 @@ void clampMotion(WorldState& world, const PairsInput& pairs) {
     StepData& data = world.data;
     std::vector<BodyWay>& way = data.before.way;
     const Vec3 acceleration = world.gravity + world.global_acceleration;
+    const auto inputOf = [&](std::span<const std::uint8_t> stuck, std::span<const std::uint8_t> back) -> WaysInput {
+        return {world.bodies, data.pairs.pairs(), data.contacts, pairs.range, way, data.jointed, stuck,
+                back,         world.executor};
+    };
+    // In most steps nobody goes back, and then it is all the same who could not.
+    if (!findPlaces(data, inputOf({}, {}), 0)) return;
+    findStuck(inputOf({}, {}), data.stuck);
     std::span<const std::uint8_t> back;
     for (int round = 0; round < most_rounds; ++round) {
-        WaysInput input{world.bodies, data.pairs.pairs(), data.contacts, pairs.range, way, data.jointed, {},
-                        back,         world.executor};
-        if (round == 0) findStuck(input, data.stuck);
-        input.stuck = data.stuck;
-        if (!findPlaces(data, input, round)) return;
+        if (!findPlaces(data, inputOf(data.stuck, back), round)) return;
         data.back.assign(world.bodies.slots(), 0);
         for (BodyIndex i = 0; i < world.bodies.slots(); ++i) {
             if (!(data.go_back_to[i] < way[i].place)) continue;
