@@ -29,7 +29,7 @@ constexpr double left_of_deep = 0.5;
 /// that bodies turn to each other now.
 constexpr double most_turned = 3;
 /// Nobody is pushed so that they overlap by more than this multiple of the threshold.
-constexpr double most_overlap = 1.35;
+constexpr double most_overlap = 2;
 /// In batches with overlaps of more than this multiple, which a scene or a user began with, both is allowed: bodies
 /// come apart only through each other.
 constexpr double most_grown = 10;

@@ -175,43 +175,29 @@ double speedChange(const BodyStorage& bodies, const VelocitiesBefore& before, st
 
 }  // namespace
 
-void beginWays(const BodyStorage& bodies, bool placed, const Executor& executor, VelocitiesBefore& before) {
+void beginWays(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before) {
     before.way.resize(bodies.slots());
     executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             if (bodies.kind[i] == BodyKind::hole) continue;
-            const Pose now{bodies.position[i], bodies.orientation[i]};
-            const bool known = !placed && bodies.detected_position[i].allFinite();
-            const Pose from = known ? Pose{bodies.detected_position[i], bodies.detected_orientation[i]} : now;
-            // Whoever fell asleep since may have been moved by the correction before.
             const bool flies = bodies.kind[i] == BodyKind::dynamic && bodies.asleep[i] == 0;
-            before.way[i] = {from, now, bodies.w[i], flies ? BodyWay::flown : BodyWay::begun};
+            before.way[i] = {{bodies.position[i], bodies.orientation[i]}, bodies.w[i], flies ? 1.0 : 0.0};
         }
     });
 }
 
-void flyBack(BodyStorage& bodies, BodyIndex i, double place, const Vec3& acceleration, const SleepSettings& settings,
+void flyBack(BodyStorage& bodies, BodyIndex i, double part, const Vec3& acceleration, const SleepSettings& settings,
              double time_step, BodyWay& way) {
-    const Pose to = poseOnWay({bodies.position[i], bodies.orientation[i]}, way, place);
-    const double before = way.part();
-    way.place = place;
-    const Vec3 gain = accelerationOf(bodies, i, acceleration, settings);
-    if (before > 0) bodies.w[i] = way.w;
-    if (way.part() > 0) {
-        // What turns freely does not turn evenly.
-        bodies.position[i] = way.begin.position;
-        bodies.orientation[i] = way.begin.orientation;
-        bodies.inertiaInv_W[i] = toWorldInertia(bodies.inertiaInv_B[i], bodies.orientation[i]);
-        bodies.v[i] += (1 - before) * time_step * gain;
-        advancePosition(bodies, i, way.part() * time_step);
-        bodies.v[i] -= (1 - way.part()) * time_step * gain;
-        return;
-    }
-    bodies.position[i] = to.position;
-    bodies.orientation[i] = to.orientation.normalized();
+    const Vec3 gain = time_step * accelerationOf(bodies, i, acceleration, settings);
+    bodies.position[i] = way.begin.position;
+    bodies.orientation[i] = way.begin.orientation;
     bodies.inertiaInv_W[i] = toWorldInertia(bodies.inertiaInv_B[i], bodies.orientation[i]);
-    bodies.linear_step[i].setZero();
-    bodies.v[i] -= before * time_step * gain;
+    bodies.w[i] = way.w;
+    bodies.v[i] += (1 - way.part) * gain;
+    way.part = part;
+    // What turns freely does not turn evenly, so that no place on the way tells how fast it turns there.
+    advancePosition(bodies, i, part * time_step);
+    bodies.v[i] -= (1 - part) * gain;
 }
 
 void saveVelocities(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before) {
@@ -299,7 +285,7 @@ void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, s
             if (!jointed.empty() && jointed[i] != 0) continue;
             // The clock of a body that flew a part of its way stood still since, and its velocity before the forces is
             // what leads to that of then.
-            const double flown = before.way[i].part();
+            const double flown = before.way[i].part;
             if (!(speedChange(bodies, before, i) <= smooth_multiple * before.forced[i])) {
                 if (before.bounced[i] != 0) {
                     bodies.position[i] += flown * flown * (before.forced_v[i] - before.v[i]) * (time_step / 2);

@@ -42,13 +42,12 @@ struct VelocitiesBefore {
     std::vector<Vec3> lift;             ///< with RestitutionSpeed::touching: out of what the body bounces off [m, W]
 };
 
-/// Notes where bodies are before advancePositions(). @param placed somebody else put bodies where they are: nothing is
-/// known of a way there @param before out
-void beginWays(const BodyStorage& bodies, bool placed, const Executor& executor, VelocitiesBefore& before);
-/// Takes a body back on its way. Its clock stands still from there to the end of the flight: its velocity has less of
-/// what forces will give, so that its energy stays what it was. @param place less than way.place @param acceleration
-/// sum of the global accelerations [m/s², W] @param time_step of the flight [s] @param way in and out
-void flyBack(BodyStorage& bodies, BodyIndex i, double place, const Vec3& acceleration, const SleepSettings& settings,
+/// Notes where bodies are before advancePositions(). @param before out
+void beginWays(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before);
+/// Lets a body fly only a part of its flight. Its clock stands still from then on: its velocity has less of what forces
+/// will give, so that its energy stays what it was. @param part less than way.part @param acceleration sum of the
+/// global accelerations [m/s², W] @param time_step of the flight [s] @param way in and out
+void flyBack(BodyStorage& bodies, BodyIndex i, double part, const Vec3& acceleration, const SleepSettings& settings,
              double time_step, BodyWay& way);
 /// Notes the velocities before advanceVelocities(). @param before out
 void saveVelocities(const BodyStorage& bodies, const Executor& executor, VelocitiesBefore& before);

@@ -13,7 +13,7 @@ namespace {
 /// Bodies may get into each other by this part of the smaller one's smallest extent, or by this multiple of the overlap
 /// that they are allowed, if that is more: less is for the correction.
 constexpr double least_overlap = 0.03;
-constexpr double most_overlap = 2;
+constexpr double most_overlap = 3;
 
 /// Whoever overlaps by more than this multiple began so.
 constexpr double most_grown = 10;
@@ -21,8 +21,8 @@ constexpr double most_grown = 10;
 /// Overlaps that grow by less than this part are those of before: they may do so in every step.
 constexpr double rounding = 1e-6;
 
-/// The place is found when the overlap there is less than the largest by this part of that, or after so many rounds.
-constexpr double place_tolerance = 0.05;
+/// The part is found when the overlap then is less than the largest by this part of that, or after so many rounds.
+constexpr double part_tolerance = 0.05;
 constexpr int most_rounds = 8;
 
 /// Fewest pairs worth a thread of their own: most are not asked.
@@ -34,17 +34,17 @@ class PairOnWay {
     PairOnWay(const WaysInput& input, const BodyPair& pair)
         : bodies_(input.bodies), a_(input, pair.a), b_(input, pair.b) {}
 
-    /// How far the one got that got farther.
-    double place() const { return std::max(a_.way.place, b_.way.place); }
+    /// What the one flew that got farther.
+    double part() const { return std::max(a_.way.part, b_.way.part); }
 
-    /// How deep they are in each other at a place of their ways [m]; 0 = not at all.
-    double depthAt(double place) const {
+    /// How deep they are in each other after a part of their flights [m]; 0 = not at all.
+    double depthAt(double part) const {
         double depth = 0;
         Manifold manifold;
         const auto look = [&](const Manifold& found) {
             for (std::size_t k = 0; k < found.size; ++k) depth = std::max(depth, -found.points[k].distance);
         };
-        forEachManifold(bodies_.shape[a_.body], shapePose(a_, place), bodies_.shape[b_.body], shapePose(b_, place), 0,
+        forEachManifold(bodies_.shape[a_.body], shapePose(a_, part), bodies_.shape[b_.body], shapePose(b_, part), 0,
                         manifold, look);
         return depth;
     }
@@ -56,10 +56,10 @@ class PairOnWay {
         return (way_a - way_b).norm() + turn_a.norm() * radius(a_) + turn_b.norm() * radius(b_);
     }
 
-    /// Where they are so deep in each other first while they fly; place() if nowhere.
-    double firstPlace(double depth) const {
+    /// After what part they are so deep in each other first; part() if never.
+    double firstPart(double depth) const {
         const auto met = timeOfOverlap(moving(a_), moving(b_), 1, depth);
-        return met ? std::min(place(), BodyWay::begun + *met) : place();
+        return met ? std::min(part(), *met) : part();
     }
 
   private:
@@ -69,7 +69,7 @@ class PairOnWay {
             if (mayGoBack(input, i)) {
                 way = input.ways[i];
             } else {
-                way = {now, now, Vec3::Zero(), BodyWay::detected};
+                way = {now, Vec3::Zero(), 0};
             }
         }
         BodyIndex body;
@@ -81,22 +81,21 @@ class PairOnWay {
         Vec3 turn;  ///< rotation vector [W]
     };
 
-    Pose shapePose(const Body& body, double place) const {
-        const Pose pose = poseOnWay(body.now, body.way, place);
+    Pose shapePose(const Body& body, double part) const {
+        const Pose pose = poseOnWay(body.now, body.way, part);
         return pose.toOuter(Pose{bodies_.p_BS[body.body], bodies_.R_BS[body.body]});
     }
     double radius(const Body& body) const {
         return std::isfinite(bodies_.r_max[body.body]) ? bodies_.r_max[body.body] : 0;
     }
     Flown flownBy(const Body& body) const {
-        const Pose begin = poseOnWay(body.now, body.way, BodyWay::begun);
+        const Pose& begin = body.way.begin;
         const Eigen::AngleAxisd turn(body.now.orientation * begin.orientation.conjugate());
         const double angle = turn.angle() > std::numbers::pi ? turn.angle() - 2 * std::numbers::pi : turn.angle();
         return {body.now.position - begin.position, angle * turn.axis()};
     }
     MovingShape moving(const Body& body) const {
-        const Pose begin = poseOnWay(body.now, body.way, BodyWay::begun);
-        MovingShape shape{bodies_.shape[body.body], shapePose(body, BodyWay::begun), begin.position};
+        MovingShape shape{bodies_.shape[body.body], shapePose(body, 0), body.way.begin.position};
         const auto [way, turn] = flownBy(body);
         shape.v = way;
         shape.w = turn;
@@ -108,37 +107,30 @@ class PairOnWay {
     Body a_, b_;
 };
 
-/// A place of a way, with the overlap there.
-struct PlaceAndDepth {
-    double place, depth;
+/// A part of flights, with the overlap after it.
+struct PartAndDepth {
+    double part, depth;
 };
 
-/// The last place with no more than an overlap. @param begin where there is less @param end where there is more
-double lastPlace(const PairOnWay& pair, PlaceAndDepth begin, PlaceAndDepth end, double most) {
-    for (int n = 0; n < most_rounds && most - begin.depth > place_tolerance * most; ++n) {
+/// The last part with no more than an overlap. @param begin with no more @param end with more
+double lastPart(const PairOnWay& pair, PartAndDepth begin, PartAndDepth end, double most) {
+    for (int n = 0; n < most_rounds && most - begin.depth > part_tolerance * most; ++n) {
         const double guess = begin.depth > 0 ? (most - begin.depth) / (end.depth - begin.depth) : 0.5;
-        const double place = begin.place + (end.place - begin.place) * std::clamp(guess, 0.05, 0.95);
-        const PlaceAndDepth between{place, pair.depthAt(place)};
+        const double part = begin.part + (end.part - begin.part) * std::clamp(guess, 0.05, 0.95);
+        const PartAndDepth between{part, pair.depthAt(part)};
         (between.depth > most ? end : begin) = between;
     }
-    return begin.place;
+    return begin.part;
 }
 
-/// To where the bodies of a pair go back; BodyWay::flown = they stay.
-double placeFor(const PairOnWay& pair, double most, bool passes) {
-    if (passes && pair.depthAt(BodyWay::begun) < most) {
-        const double first = pair.firstPlace(most);
-        return first < pair.place() ? first : BodyWay::flown;
-    }
-    const PlaceAndDepth now{pair.place(), pair.depthAt(BodyWay::flown)};
-    if (!(now.depth > most)) return BodyWay::flown;
-    const PlaceAndDepth before{BodyWay::detected, pair.depthAt(BodyWay::detected)};
-    const double allowed = std::max(most, before.depth);
-    if (!(now.depth > (1 + rounding) * allowed)) return BodyWay::flown;
-    if (pair.place() <= BodyWay::begun) return lastPlace(pair, before, now, allowed);
-    const PlaceAndDepth begun{BodyWay::begun, pair.depthAt(BodyWay::begun)};
-    if (begun.depth > (1 + rounding) * allowed) return lastPlace(pair, before, begun, allowed);
-    return lastPlace(pair, begun, now, allowed);
+/// What the bodies of a pair may fly of their flights; pair.part() = all that they flew.
+double partFor(const PairOnWay& pair, double most, double r_min) {
+    const double before = pair.depthAt(0);
+    if (before < most && pair.passed() > r_min) return pair.firstPart(most);
+    const double now = pair.depthAt(pair.part());
+    const double allowed = std::max(most, before);
+    if (!(now > (1 + rounding) * allowed)) return pair.part();
+    return lastPart(pair, {0, before}, {pair.part(), now}, allowed);
 }
 
 }  // namespace
@@ -147,7 +139,7 @@ bool mayGoBack(const WaysInput& input, BodyIndex i) {
     const BodyStorage& bodies = input.bodies;
     if (bodies.kind[i] != BodyKind::dynamic) return false;
     if (!input.stuck.empty() && input.stuck[i] != 0) return false;
-    return input.ways[i].place > BodyWay::detected && (input.jointed.empty() || input.jointed[i] == 0);
+    return input.ways[i].part > 0 && (input.jointed.empty() || input.jointed[i] == 0);
 }
 
 void findStuck(const WaysInput& input, std::vector<std::uint8_t>& stuck) {
@@ -157,7 +149,7 @@ void findStuck(const WaysInput& input, std::vector<std::uint8_t>& stuck) {
         const auto contacts = input.contacts.subspan(pair.first, pair.count);
         const auto isFar = [](const Contact& c) { return c.distance < -most_grown * c.allowed_overlap; };
         if (std::ranges::none_of(contacts, isFar)) continue;
-        const double before = PairOnWay(input, pair).depthAt(BodyWay::detected);
+        const double before = PairOnWay(input, pair).depthAt(0);
         if (before > most_grown * contacts.front().allowed_overlap) stuck[pair.a] = stuck[pair.b] = 1;
     }
 }
@@ -178,8 +170,8 @@ void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& foun
         if (!deep && !fast) return;
         if (!pair.isTested() || (!mayGoBack(input, pair.a) && !mayGoBack(input, pair.b))) return;
         const PairOnWay on_way(input, pair);
-        const double place = placeFor(on_way, most, on_way.place() > BodyWay::begun && on_way.passed() > r_min);
-        if (place < on_way.place()) part.push_back({pair, place});
+        const double flown = partFor(on_way, most, r_min);
+        if (flown < on_way.part()) part.push_back({pair, flown});
     };
     input.executor.forBlocks(
         input.pairs.size(),

@@ -1,4 +1,4 @@
-/// @file Motion clamping: how far bodies that got too deep into each other on their ways have to go back.
+/// @file Motion clamping: how far bodies that flew too deep into each other have to go back.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ namespace cairn {
 /// Two bodies that got too deep into each other.
 struct TooDeep {
     BodyPair pair;
-    double place = 0;  ///< as of BodyWay: to where both go back that got farther
+    double part = 0;  ///< of their flights: to where both go back that got farther
 };
 
 /// What is known of the ways.
@@ -31,16 +31,16 @@ struct WaysInput {
     const Executor& executor;
 };
 
-/// Finds bodies that were far deeper in others already where they were detected before than impacts and weights lead,
-/// as a scene or a user put them: they come apart only through each other.
+/// Finds bodies that were far deeper in others already where they began to fly than impacts and weights lead, as a
+/// scene or a user put them: they come apart only through each other.
 /// @param stuck out: [slots] 1 = is one of them
 void findStuck(const WaysInput& input, std::vector<std::uint8_t>& stuck);
 
 /// Whether a body may go back.
 bool mayGoBack(const WaysInput& input, BodyIndex i);
 
-/// Finds the pairs whose bodies are deeper in each other than they may be in a fall and were where they were detected
-/// before, and those of which one flew through the other. @param found out: by thread, in the order of the pairs
+/// Finds the pairs whose bodies are deeper in each other than they may be in a fall and were where they began to fly,
+/// and those of which one flew through the other. @param found out: by thread, in the order of the pairs
 void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& found);
 
 }  // namespace cairn

@@ -13,24 +13,23 @@ constexpr int most_exact = 4;
 /// … and after so many what is too deep stays so in this step.
 constexpr int most_rounds = 256;
 
-/// Less of a way than this is none.
+/// Less of a flight than this is none.
 constexpr double least_part = 0.02;
 
 /// @param round from 0 on
-double settledPlace(double place, int round) {
-    const double whole = place >= BodyWay::begun ? BodyWay::begun : BodyWay::detected;
-    return round >= most_exact || place - whole < least_part ? whole : place;
+double settledPart(double part, int round) {
+    return round >= most_exact || part < least_part ? 0 : part;
 }
 
 /// Finds to where bodies go back. @return whether any does
 bool findPlaces(StepData& data, const WaysInput& input, int round) {
     findTooDeep(input, data.too_deep);
     if (std::ranges::all_of(data.too_deep, [](const auto& part) { return part.empty(); })) return false;
-    data.go_back_to.assign(input.bodies.slots(), BodyWay::flown);
+    data.go_back_to.assign(input.bodies.slots(), 1);
     for (const std::vector<TooDeep>& part : data.too_deep) {
-        for (const auto& [pair, place] : part) {
+        for (const auto& [pair, flown] : part) {
             for (const BodyIndex i : {pair.a, pair.b}) {
-                if (mayGoBack(input, i)) data.go_back_to[i] = std::min(data.go_back_to[i], settledPlace(place, round));
+                if (mayGoBack(input, i)) data.go_back_to[i] = std::min(data.go_back_to[i], settledPart(flown, round));
             }
         }
     }
@@ -55,7 +54,7 @@ void clampMotion(WorldState& world, const PairsInput& pairs) {
         if (!findPlaces(data, inputOf(data.stuck, back), round)) return;
         data.back.assign(world.bodies.slots(), 0);
         for (BodyIndex i = 0; i < world.bodies.slots(); ++i) {
-            if (!(data.go_back_to[i] < way[i].place)) continue;
+            if (!(data.go_back_to[i] < way[i].part)) continue;
             flyBack(world.bodies, i, data.go_back_to[i], acceleration, world.settings.sleep, world.part.length, way[i]);
             data.back[i] = 1;
         }

@@ -99,7 +99,6 @@ void detect(WorldState& world, bool begins) {
 /// Velocities that users gave were granted by no resolution: impacts that they would make in this step are resolved
 /// before bodies fly on with them. @return whether the detections of the step have begun
 bool grantLaunched(WorldState& world) {
-    world.was_placed = world.launched;
     if (!std::exchange(world.launched, false)) return false;
     // In no time, so that forces act later in the step.
     world.part = {.units = 0};
@@ -278,10 +277,7 @@ void repeatStep(WorldState& world) {
 
 void flyStage(WorldState& world) {
     const double time = world.part.length;
-    if (notesWays(world.settings)) {
-        const bool placed = world.was_placed && world.part.isFirst();
-        beginWays(world.bodies, placed, world.executor, world.data.before);
-    }
+    if (notesWays(world.settings)) beginWays(world.bodies, world.executor, world.data.before);
     const JointFlight::Motion motion{world.settings.integration, world.settings.sleep,
                                      world.gravity + world.global_acceleration, time, world.data.contacts};
     world.joint_flight.begin(world.joints, world.data.joint_groups, world.bodies, motion);

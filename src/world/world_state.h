@@ -219,12 +219,11 @@ struct WorldState {
     std::unique_ptr<SharedBodies> shared;  ///< with other ranks; null = the world is on one
 
     std::vector<double>
-        dealt_extents;        ///< middle ones of all bodies that move and were dealt out, until the first step
-    StepPart part;            ///< of the step that is computed
-    NextPart next_part;       ///< after it, or of the next step
-    bool launched = false;    ///< a user gave a body a velocity or a place since the last step
-    bool was_placed = false;  ///< the same, before the step that is computed
-    int still_steps = 0;      ///< last steps that everybody slept through, without a call since
+        dealt_extents;      ///< middle ones of all bodies that move and were dealt out, until the first step
+    StepPart part;          ///< of the step that is computed
+    NextPart next_part;     ///< after it, or of the next step
+    bool launched = false;  ///< a user gave a body a velocity or a place since the last step
+    int still_steps = 0;    ///< last steps that everybody slept through, without a call since
     std::int64_t steps = 0;
     double time = 0;                  ///< [s]
     bool sized = false;               ///< bodies have told how many time steps they need
