@@ -1,6 +1,7 @@
 #include "narrow_phase/approach.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "math/rotation.h"
@@ -9,11 +10,47 @@ namespace cairn {
 
 namespace {
 
-/// Rounds after which two shapes count as overlapping.
+/// Rounds after which steps follow, and most of these.
 constexpr int most_rounds = 24;
+constexpr int most_steps = 64;
+
+/// How often the step in which they get so deep is halved.
+constexpr int most_halvings = 6;
 
 /// They are as deep as asked for when no more than this part of the depth is missing.
 constexpr double depth_tolerance = 1e-2;
+
+/// How deep two shapes are in each other after a time [m]; 0 = not at all.
+double depthAfter(const MovingShape& a, const MovingShape& b, double time) {
+    Manifold manifold;
+    double depth = 0;
+    const auto look = [&](const Manifold& found) {
+        for (std::size_t i = 0; i < found.size; ++i) depth = std::max(depth, -found.points[i].distance);
+    };
+    forEachManifold(a.shape, a.poseAfter(time), b.shape, b.poseAfter(time), 0, manifold, look);
+    return depth;
+}
+
+/// As timeOfOverlap(), in steps. @param begin when they are not that deep [s]
+std::optional<double> timeBySteps(const MovingShape& a, const MovingShape& b, double begin, double time, double depth) {
+    const double way = ((b.v - a.v).norm() + a.turning + b.turning) * (time - begin);
+    const double thick = std::min(smallestRadius(a.shape), smallestRadius(b.shape));
+    const double steps = std::clamp(std::ceil(way / thick), 1.0, static_cast<double>(most_steps));
+    double before = begin;
+    for (double k = 1; k <= steps; ++k) {
+        double after = begin + (time - begin) * k / steps;
+        if (!(depthAfter(a, b, after) > depth)) {
+            before = after;
+            continue;
+        }
+        for (int n = 0; n < most_halvings; ++n) {
+            const double between = (before + after) / 2;
+            (depthAfter(a, b, between) > depth ? after : before) = between;
+        }
+        return before;
+    }
+    return {};
+}
 
 }  // namespace
 
@@ -46,7 +83,7 @@ std::optional<double> timeOfOverlap(const MovingShape& a, const MovingShape& b, 
         if (!(safe < left)) return {};
         now += safe;
     }
-    return now;
+    return timeBySteps(a, b, now, time, depth);
 }
 
 }  // namespace cairn

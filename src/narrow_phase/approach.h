@@ -20,8 +20,10 @@ struct MovingShape {
 };
 
 /// When two shapes, if nothing stopped them, would first overlap by more than a depth within a time step [s]; none if
-/// they would not. Conservative advancement: no time is passed over in which they could; what is not decided after a
-/// number of rounds counts as overlapping. @param time of the step [s] @param depth [m], ≥ 0
+/// they would not. Conservative advancement: no time is passed over in which they could. What is not decided after a
+/// number of rounds, since they graze each other, is looked at from there on in steps in which no point of one passes
+/// the other by more than the inner radius of the smaller shape, but for a number of steps at most.
+/// @param time of the step [s] @param depth [m], ≥ 0
 /// @source Mirtich: Impulse-based dynamic simulation of rigid body systems, Berkeley 1996, §2.3
 std::optional<double> timeOfOverlap(const MovingShape& a, const MovingShape& b, double time, double depth);
 

@@ -204,13 +204,13 @@ void PairTable::join(const PairsInput& input, std::vector<Contact>& contacts) {
     });
 }
 
-void PairTable::followStruck(const PairsInput& input, double fastest, std::vector<Contact>& contacts,
-                             std::vector<std::uint32_t>& added) {
+void PairTable::followStruck(const PairsInput& input, double fastest, std::span<const std::uint8_t> stopped,
+                             std::vector<Contact>& contacts, std::vector<std::uint32_t>& added) {
     added.clear();
     DetectionRange range = range_;
     // The velocities have it by now.
     range.foresight.fall.setZero();
-    if (!findStruck(input, range, fastest)) return;
+    if (!findStruck(input, range, fastest, stopped)) return;
     neighbours_.update({input.bodies.kind, bounds_, input.bodies.v, unmoved_}, input.broad_phase, input.executor);
     for (FoundContacts& part : parts_) part.clear();
     forParts(input.executor, [&](FoundContacts& part) { followPairs(input, range, contacts, part); });
@@ -300,12 +300,14 @@ void PairTable::forParts(const Executor& executor, const Work& work) {
 }
 
 /// Looks ahead once more for the bodies that were struck, from where they are. @return whether there are any
-bool PairTable::findStruck(const PairsInput& input, const DetectionRange& range, double fastest) {
+bool PairTable::findStruck(const PairsInput& input, const DetectionRange& range, double fastest,
+                           std::span<const std::uint8_t> stopped) {
     const BodyStorage& bodies = input.bodies;
     struck_.resize(bodies.slots());
     input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
-            const bool struck = isStruck(bodies, range, i, ahead_[i]);
+            const bool follows = !stopped.empty() && stopped[i] != 0;
+            const bool struck = isStruck(bodies, range, i, follows ? BodyAhead{} : ahead_[i]);
             struck_[i] = struck ? 1 : 0;
             unmoved_[i] = struck ? 0 : 1;
             if (!struck) continue;

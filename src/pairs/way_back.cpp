@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "narrow_phase/approach.h"
 
@@ -49,17 +50,16 @@ class PairOnWay {
         return depth;
     }
 
-    /// How far points of them flew past each other at most [m].
-    double passed() const {
-        const auto [way_a, turn_a] = flownBy(a_);
-        const auto [way_b, turn_b] = flownBy(b_);
-        return (way_a - way_b).norm() + turn_a.norm() * radius(a_) + turn_b.norm() * radius(b_);
-    }
-
     /// After what part they are so deep in each other first; part() if never.
     double firstPart(double depth) const {
-        const auto met = timeOfOverlap(moving(a_), moving(b_), 1, depth);
-        return met ? std::min(part(), *met) : part();
+        // Who went back before stands still from there on.
+        const double both = std::min(a_.way.part, b_.way.part);
+        for (const auto& [begin, end] : {std::pair(0.0, both), std::pair(both, part())}) {
+            if (!(begin < end)) continue;
+            const auto met = timeOfOverlap(moving(a_, begin, end), moving(b_, begin, end), end - begin, depth);
+            if (met) return std::min(part(), begin + *met);
+        }
+        return part();
     }
 
   private:
@@ -88,18 +88,22 @@ class PairOnWay {
     double radius(const Body& body) const {
         return std::isfinite(bodies_.r_max[body.body]) ? bodies_.r_max[body.body] : 0;
     }
-    Flown flownBy(const Body& body) const {
-        const Pose& begin = body.way.begin;
-        const Eigen::AngleAxisd turn(body.now.orientation * begin.orientation.conjugate());
+    Flown flownBy(const Body& body, double from, double to) const {
+        if (!(from < body.way.part)) return {Vec3::Zero(), Vec3::Zero()};
+        const Pose begin = poseOnWay(body.now, body.way, from);
+        const Pose end = poseOnWay(body.now, body.way, to);
+        const Eigen::AngleAxisd turn(end.orientation * begin.orientation.conjugate());
         const double angle = turn.angle() > std::numbers::pi ? turn.angle() - 2 * std::numbers::pi : turn.angle();
-        return {body.now.position - begin.position, angle * turn.axis()};
+        return {end.position - begin.position, angle * turn.axis()};
     }
-    MovingShape moving(const Body& body) const {
-        MovingShape shape{bodies_.shape[body.body], shapePose(body, 0), body.way.begin.position};
-        const auto [way, turn] = flownBy(body);
-        shape.v = way;
-        shape.w = turn;
-        shape.turning = turn.norm() * radius(body);
+    /// Between two parts, evenly. @param to no farther than either flew, or from both
+    MovingShape moving(const Body& body, double from, double to) const {
+        MovingShape shape{bodies_.shape[body.body], shapePose(body, from),
+                          poseOnWay(body.now, body.way, from).position};
+        const auto [way, turn] = flownBy(body, from, to);
+        shape.v = way / (to - from);
+        shape.w = turn / (to - from);
+        shape.turning = shape.w.norm() * radius(body);
         return shape;
     }
 
@@ -124,13 +128,28 @@ double lastPart(const PairOnWay& pair, PartAndDepth begin, PartAndDepth end, dou
 }
 
 /// What the bodies of a pair may fly of their flights; pair.part() = all that they flew.
-double partFor(const PairOnWay& pair, double most, double r_min) {
+/// @param passes whether they flew so far past each other that they may be apart again
+double partFor(const PairOnWay& pair, double most, bool passes) {
     const double before = pair.depthAt(0);
-    if (before < most && pair.passed() > r_min) return pair.firstPart(most);
+    if (passes && before < most) {
+        const double first = pair.firstPart(most);
+        if (first < pair.part()) return first;
+    }
     const double now = pair.depthAt(pair.part());
     const double allowed = std::max(most, before);
     if (!(now > (1 + rounding) * allowed)) return pair.part();
     return lastPart(pair, {0, before}, {pair.part(), now}, allowed);
+}
+
+/// How far points of two bodies flew past each other at most [m].
+double flownPast(const WaysInput& input, const BodyPair& pair) {
+    const BodyStorage& b = input.bodies;
+    const auto turned = [&](BodyIndex i) {
+        if (!(input.ways[i].part > 0) || !std::isfinite(b.r_max[i])) return 0.0;
+        const double cosine = b.orientation[i].dot(input.ways[i].begin.orientation);
+        return 2 * b.r_max[i] * std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    };
+    return (b.linear_step[pair.a] - b.linear_step[pair.b]).norm() + turned(pair.a) + turned(pair.b);
 }
 
 }  // namespace
@@ -166,11 +185,11 @@ void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& foun
         const auto contacts =
             pair.touches() ? input.contacts.subspan(pair.first, pair.count) : std::span<const Contact>();
         const bool deep = std::ranges::any_of(contacts, [&](const Contact& c) { return c.distance < -most; });
-        const bool fast = (b.linear_step[pair.a] - b.linear_step[pair.b]).norm() > r_min;
+        const bool fast = flownPast(input, pair) > r_min;
         if (!deep && !fast) return;
         if (!pair.isTested() || (!mayGoBack(input, pair.a) && !mayGoBack(input, pair.b))) return;
         const PairOnWay on_way(input, pair);
-        const double flown = partFor(on_way, most, r_min);
+        const double flown = partFor(on_way, most, fast);
         if (flown < on_way.part()) part.push_back({pair, flown});
     };
     input.executor.forBlocks(

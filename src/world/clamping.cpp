@@ -49,6 +49,7 @@ void clampMotion(WorldState& world, const PairsInput& pairs) {
     // In most steps nobody goes back, and then it is all the same who could not.
     if (!findPlaces(data, inputOf({}, {}), 0)) return;
     findStuck(inputOf({}, {}), data.stuck);
+    data.stopped.assign(world.bodies.slots(), 0);
     std::span<const std::uint8_t> back;
     for (int round = 0; round < most_rounds; ++round) {
         if (!findPlaces(data, inputOf(data.stuck, back), round)) return;
@@ -57,6 +58,7 @@ void clampMotion(WorldState& world, const PairsInput& pairs) {
             if (!(data.go_back_to[i] < way[i].part)) continue;
             flyBack(world.bodies, i, data.go_back_to[i], acceleration, world.settings.sleep, world.part.length, way[i]);
             data.back[i] = 1;
+            data.stopped[i] = 1;
         }
         back = data.back;
         data.pairs.detectBack(pairs, back, data.contacts);

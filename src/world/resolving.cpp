@@ -298,8 +298,11 @@ bool followStruck(WorldState& world, BodyState& bodies, const PairsInput& pairs)
     StepData& data = world.data;
     bool any = false;
     data.left_closing.clear();
+    // Whoever went back would get as deep again by what was foreseen of it.
+    std::span<const std::uint8_t> stopped = data.stopped;
     for (int n = 0; n < most_follows; ++n) {
-        data.pairs.followStruck(pairs, data.fastest, data.contacts, data.added);
+        data.pairs.followStruck(pairs, data.fastest, stopped, data.contacts, data.added);
+        stopped = {};
         findUnresolved(world, bodies);
         if (data.added.empty() && data.unresolved.empty()) break;
         any = any || !data.added.empty();

@@ -88,6 +88,7 @@ void detect(WorldState& world, bool begins) {
     if (range.foresight.time > 0) world.data.fastest = 2 * speed;
     settleShared(world, range, speed, world.part.units > 0);
     if (begins) world.data.pairs.beginStep(world.bodies, world.data.generation);
+    world.data.stopped.clear();
     beginContacts(world.data.contacts, contactsBegin(world, warmStart(world)), world.executor);
     world.data.pairs.detect(pairsInput(world, range), world.data.contacts);
     if (world.part.units > 0 && foresees(world.settings)) clampMotion(world, pairsInput(world, range));

@@ -112,6 +112,7 @@ struct StepData {
     std::vector<std::uint8_t> stuck;             ///< detection: [slots] 1 = began deep in others
     std::vector<double> go_back_to;              ///< detection: [slots] kept memory
     std::vector<std::uint8_t> back;              ///< detection: [slots] kept memory
+    std::vector<std::uint8_t> stopped;           ///< detection: [slots] 1 = went back; empty = nobody did
     std::vector<double> shortest_of;             ///< detection: [threads] kept memory
     double fastest = 0;                      ///< detection: how fast bodies may be that are struck in the step [m/s]
     std::vector<Vec3> surface;               ///< velocities: [slots] of fixed bodies' surfaces [m/s, W]; or empty

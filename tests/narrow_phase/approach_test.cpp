@@ -37,5 +37,17 @@ TEST(TimeOfOverlap, IsNoneForThosePassingByAndFoundForThoseThatArePastEachOtherI
     EXPECT_NEAR(*through, (5 - 0.2 + depth) / 20, 1e-3 * depth) << "the ball is far behind it at the end";
 }
 
+TEST(TimeOfOverlap, IsNoneForPlatesThatTurnCloseToEachOther) {
+    // No point is safe for long from one that turns so fast, whatever it does along the normal.
+    const Shape plate = Box{Vec3(1.2, 1.2, 0.1)};
+    const MovingShape still = moving(plate, Vec3::Zero(), Vec3::Zero());
+    const MovingShape beside = moving(plate, Vec3(0.1, 0, 0.12), Vec3::Zero(), Vec3(0, 0, 10));
+    EXPECT_FALSE(timeOfOverlap(still, beside, 1, depth).has_value());
+    const MovingShape closing = moving(plate, Vec3(0.1, 0, 0.12), Vec3(0, 0, -0.05), Vec3(0, 0, 10));
+    const auto met = timeOfOverlap(still, closing, 1, depth);
+    ASSERT_TRUE(met.has_value());
+    EXPECT_NEAR(*met, 0.6, 1e-2);
+}
+
 }  // namespace
 }  // namespace cairn::testing

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <vector>
 
 #include "broad_phase/hash_grids.h"
@@ -78,6 +79,38 @@ TEST(WayBack, LeadsToBeforeTheBodyThatWasFlownThrough) {
     const double x = 5 - 10 * found[0].part;
     EXPECT_GE(x, 2 - 3 * allowed - 1e-12);
     EXPECT_LE(x, 2);
+}
+
+TEST(WayBack, LeadsToBeforeTheBodyThatStoppedOnItsWay) {
+    TwoBalls balls;
+    balls.addOnWay(5, -5);
+    // It went back before, to the first tenth of its flight, and stands there while the other comes.
+    balls.ways[0].begin.position = Vec3(-8, 0, 0);
+    balls.ways[0].part = 0.1;
+    const std::vector<TooDeep> found = balls.find();
+    ASSERT_EQ(found.size(), 1);
+    const double x = 5 - 10 * found[0].part;
+    EXPECT_GE(x, 2 - 3 * allowed - 1e-12);
+    EXPECT_LE(x, 2);
+}
+
+TEST(WayBack, LeadsToBeforeWhatATurningBodySweeps) {
+    TwoBalls balls;
+    balls.addOnWay(3, 3);
+    // A rod along y turned through x, where the ball is, and beyond.
+    balls.bodies.shape[0] = Capsule{0.2, 6};
+    balls.bodies.r_max[0] = 3.2;
+    balls.bodies.r_min[0] = 0.2;
+    const auto along = [](double angle) {
+        return Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ())) *
+               Quat(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()));
+    };
+    balls.ways[0].begin.orientation = along(0);
+    balls.bodies.orientation[0] = along(-0.75 * std::numbers::pi);
+    const std::vector<TooDeep> found = balls.find();
+    ASSERT_EQ(found.size(), 1);
+    EXPECT_GT(found[0].part, 0.45);
+    EXPECT_LT(found[0].part, 0.52);
 }
 
 TEST(WayBack, LeavesWhoWasDeepBeforeAndGetsNoDeeper) {
