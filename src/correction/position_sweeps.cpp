@@ -28,9 +28,7 @@ constexpr double left_of_deep = 0.5;
 /// A body is turned so far that what touches goes by this multiple of the threshold: contacts are those of the sides
 /// that bodies turn to each other now.
 constexpr double most_turned = 3;
-/// Nobody is pushed so that they overlap by more than this multiple of the threshold.
-constexpr double most_overlap = 2;
-/// In batches with overlaps of more than this multiple, which a scene or a user began with, both is allowed: bodies
+/// In batches with overlaps of more than this multiple, which a scene or a user began with, any turn is allowed: bodies
 /// come apart only through each other.
 constexpr double most_grown = 10;
 
@@ -52,23 +50,35 @@ CorrectionCounts PositionSweeps::correct(const BatchView& batch, const ContactsO
         const double deepest = sweep(contacts, bodies, {remaining, i > usual_sweeps ? most_uneven : by_masses});
         if (!(deepest > (i < usual_sweeps ? 1 : deep_multiple))) break;
     }
-    for (Overlap& overlap : overlaps_) {
-        if (isMoved(overlap)) leversOf(overlap, contacts, bodies);
+    displace(batch, bodies);
+    return counts;
+}
+
+CorrectionCounts PositionSweeps::settle(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
+                                        const PosesBefore& before) {
+    CorrectionCounts counts;
+    const auto isDeep = [&](std::uint32_t index) { return contacts[index].isTooDeep(); };
+    if (std::ranges::none_of(batch.contacts, isDeep)) return counts;
+    counts.displaced = findMoved(batch, bodies, before);
+    const auto fixed = static_cast<std::uint32_t>(batch.bodies.size());
+    const auto shareOf = [&](BodyIndex i) -> Share& { return shares_[bodies.isFixed(i) ? fixed : bodies.place[i]]; };
+    for (const std::uint32_t index : batch.contacts) {
+        Contact& contact = contacts[index];
+        const Share& a = shareOf(contact.a);
+        const Share& b = shareOf(contact.b);
+        const bool deep = isDeep(index);
+        if ((a.moved || b.moved) && std::isfinite(contact.distance)) moveContact(contact, a, b, before);
+        if (deep) ++(contact.isTooDeep() ? counts.uncorrected : counts.corrected);
     }
-    while (!stuck_ && holdBack()) {
+    if (counts.displaced == 0) return counts;
+    // What the lifted bodies owe is taken from the motion along the normals of their contacts, in ascending order.
+    for (const std::uint32_t index : batch.contacts) {
+        const Contact& contact = contacts[index];
+        Share& a = shareOf(contact.a);
+        Share& b = shareOf(contact.b);
+        if (!(a.debt + b.debt > 0) || !mayReceive(bodies, contact.a) || !mayReceive(bodies, contact.b)) continue;
+        payAt(contact, a, b, bodies);
     }
-    counts.displaced = displace(batch, bodies);
-    for (const Overlap& overlap : overlaps_) {
-        if (!isMoved(overlap)) continue;
-        Contact& contact = contacts[overlap.index];
-        contact.point += 0.5 * (shares_[overlap.a].displacement + shares_[overlap.b].displacement);
-        const Vec3 past = 0.5 * (shares_[overlap.a].displacement - shares_[overlap.b].displacement);
-        contact.slide += past - past.dot(contact.normal) * contact.normal;
-        contact.distance = distanceOf(overlap);
-        if (overlap.distance < overlap.threshold && !(contact.distance < overlap.threshold)) ++counts.corrected;
-    }
-    pay(contacts, bodies);
-    counts.uncorrected = counts.penetrating - counts.corrected;
     return counts;
 }
 
@@ -91,24 +101,6 @@ void PositionSweeps::gather(const BatchView& batch, std::span<const Contact> con
                              .b = bodies.isFixed(contact.b) ? fixed : bodies.place[contact.b],
                              .index = index});
     }
-}
-
-/// Leaves bodies where they are that pushes would leave deeper in each other than they were, and than they may be:
-/// where a pile is jammed, sweeps end before everybody has a place. @pre levers are known where bodies moved
-/// @return whether there were any
-bool PositionSweeps::holdBack() {
-    bool any = false;
-    for (const Overlap& overlap : overlaps_) {
-        if (!isMoved(overlap)) continue;
-        if (!(distanceOf(overlap) < std::min(most_overlap * overlap.threshold, overlap.distance))) continue;
-        for (const std::uint32_t i : {overlap.a, overlap.b}) {
-            any = any || shares_[i].moved;
-            shares_[i].displacement.setZero();
-            shares_[i].turn.setZero();
-            shares_[i].moved = false;
-        }
-    }
-    return any;
 }
 
 /// The levers of a contact, which only those need that are too deep or whose bodies moved.
@@ -182,19 +174,32 @@ double PositionSweeps::distanceOf(const Overlap& overlap) const {
            b.turn.dot(levers.b);
 }
 
-/// Moves the bodies, wakes them and finds out what they owe. @return how many were moved
-std::int64_t PositionSweeps::displace(const BatchView& batch, const BodyState& bodies) {
+void PositionSweeps::displace(const BatchView& batch, const BodyState& bodies) {
+    for (std::size_t i = 0; i < batch.bodies.size(); ++i) {
+        const BodyIndex body = batch.bodies[i];
+        const Share& share = shares_[i];
+        if (!share.displacement.allFinite() || !share.turn.allFinite() || share.displacement.isZero(0)) continue;
+        bodies.position[body] += share.displacement;
+        if (share.turn.isZero(0)) continue;
+        bodies.orientation[body] = (fromRotationVector(share.turn) * bodies.orientation[body]).normalized();
+        bodies.inertiaInv_W[body] = toWorldInertia(bodies.inertiaInv_B[body], bodies.orientation[body]);
+    }
+}
+
+/// Finds how far the bodies were moved and what they owe, and wakes them. @return how many were
+std::int64_t PositionSweeps::findMoved(const BatchView& batch, const BodyState& bodies, const PosesBefore& before) {
     std::int64_t moved = 0;
+    bodies.writePlaces(batch.bodies);
+    shares_.assign(batch.bodies.size() + 1, {});
     for (std::size_t i = 0; i < batch.bodies.size(); ++i) {
         const BodyIndex body = batch.bodies[i];
         Share& share = shares_[i];
-        if (!share.displacement.allFinite() || !share.turn.allFinite()) share = {};
-        if (share.displacement.isZero(0)) continue;
-        bodies.position[body] += share.displacement;
-        if (!share.turn.isZero(0)) {
-            bodies.orientation[body] = (fromRotationVector(share.turn) * bodies.orientation[body]).normalized();
-            bodies.inertiaInv_W[body] = toWorldInertia(bodies.inertiaInv_B[body], bodies.orientation[body]);
+        share.displacement = bodies.position[body] - before.position[body];
+        if (bodies.orientation[body].coeffs() != before.orientation[body].coeffs()) {
+            share.turn = toRotationVector(bodies.orientation[body] * before.orientation[body].conjugate());
         }
+        share.moved = !share.displacement.isZero(0);
+        if (!share.moved) continue;
         bodies.wake(body, WakeReason::displaced);
         const Vec3 acceleration = bodies.gravityFactor(body) * bodies.acceleration;
         share.debt = std::max(0.0, -acceleration.dot(share.displacement) / bodies.mass_inv[body]);
@@ -203,15 +208,17 @@ std::int64_t PositionSweeps::displace(const BatchView& batch, const BodyState& b
     return moved;
 }
 
-/// Takes what the lifted bodies owe from the motion along the normals of their contacts, in ascending order.
-void PositionSweeps::pay(std::span<const Contact> contacts, const BodyState& bodies) {
-    for (const Overlap& overlap : overlaps_) {
-        Share& a = shares_[overlap.a];
-        Share& b = shares_[overlap.b];
-        const Contact& contact = contacts[overlap.index];
-        if (!(a.debt + b.debt > 0) || !mayReceive(bodies, contact.a) || !mayReceive(bodies, contact.b)) continue;
-        payAt(contact, a, b, bodies);
-    }
+/// Brings a contact to where its bodies are now.
+void PositionSweeps::moveContact(Contact& contact, const Share& a, const Share& b, const PosesBefore& before) const {
+    const auto along = [&](BodyIndex i, const Share& share) {
+        if (!share.moved) return 0.0;
+        const Vec3 lever = contact.pointOn(i) - before.position[i];
+        return contact.normal.dot(share.displacement + share.turn.cross(lever));
+    };
+    contact.distance += along(contact.a, a) - along(contact.b, b);
+    contact.point += 0.5 * (a.displacement + b.displacement);
+    const Vec3 past = 0.5 * (a.displacement - b.displacement);
+    contact.slide += past - past.dot(contact.normal) * contact.normal;
 }
 
 /// Lets one contact give what it has of what its bodies owe. With λ on A and −λ on B along n, k = nᵀ·K·n and the normal

@@ -24,8 +24,11 @@ namespace cairn {
 /// has lost as much motion as it gained height, as far as it had any.
 class PositionSweeps final : public Correction {
   public:
+    /// Moves the bodies only.
     CorrectionCounts correct(const BatchView& batch, const ContactsOfBodies& contacts_of, std::span<Contact> contacts,
                              const BodyState& bodies, double remaining) override;
+    CorrectionCounts settle(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
+                            const PosesBefore& before) override;
 
   private:
     static constexpr std::uint32_t no_levers = UINT32_MAX;
@@ -75,10 +78,10 @@ class PositionSweeps final : public Correction {
     const Levers& leversOf(Overlap& overlap, std::span<const Contact> contacts, const BodyState& bodies);
     double sweep(std::span<const Contact> contacts, const BodyState& bodies, const Push& push);
     double separate(Overlap& overlap, std::span<const Contact> contacts, const BodyState& bodies, const Push& push);
-    bool holdBack();
     double distanceOf(const Overlap& overlap) const;
-    std::int64_t displace(const BatchView& batch, const BodyState& bodies);
-    void pay(std::span<const Contact> contacts, const BodyState& bodies);
+    void displace(const BatchView& batch, const BodyState& bodies);
+    std::int64_t findMoved(const BatchView& batch, const BodyState& bodies, const PosesBefore& before);
+    void moveContact(Contact& contact, const Share& a, const Share& b, const PosesBefore& before) const;
     void payAt(const Contact& contact, Share& a, Share& b, const BodyState& bodies);
 
     bool stuck_ = false;  ///< the batch began deep in each other

@@ -21,6 +21,12 @@ inline Quat fromRotationVector(const Vec3& rotation) {
     return Quat(Eigen::AngleAxisd(angle, rotation / angle));
 }
 
+/// The shorter one of the two rotation vectors of a unit quaternion [rad].
+inline Vec3 toRotationVector(const Quat& rotation) {
+    const Eigen::AngleAxisd turn(rotation);
+    return turn.angle() * turn.axis();
+}
+
 /// World inverse inertia from the principal one. @param inertiaInv_B diagonal [1/(kg·m²), B] @param R_WB B to W
 inline Mat3 toWorldInertia(const Vec3& inertiaInv_B, const Quat& R_WB) {
     const Mat3 r = R_WB.toRotationMatrix();

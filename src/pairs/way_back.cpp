@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "math/rotation.h"
 #include "narrow_phase/approach.h"
 
 namespace cairn {
@@ -15,6 +15,14 @@ namespace {
 /// that they are allowed, if that is more: less is for the correction.
 constexpr double least_overlap = 0.03;
 constexpr double most_overlap = 3;
+
+/// The correction may press others into each other by this multiple of the overlap that they are allowed; what it
+/// moves by less than this multiple of it is not asked.
+constexpr double most_pressed = 1.35;
+constexpr double least_moved = 0.5;
+
+/// Nor by more than this part of what the deeper of them was in others before.
+constexpr double most_shared = 0.9;
 
 /// Whoever overlaps by more than this multiple began so.
 constexpr double most_grown = 10;
@@ -92,9 +100,7 @@ class PairOnWay {
         if (!(from < body.way.part)) return {Vec3::Zero(), Vec3::Zero()};
         const Pose begin = poseOnWay(body.now, body.way, from);
         const Pose end = poseOnWay(body.now, body.way, to);
-        const Eigen::AngleAxisd turn(end.orientation * begin.orientation.conjugate());
-        const double angle = turn.angle() > std::numbers::pi ? turn.angle() - 2 * std::numbers::pi : turn.angle();
-        return {end.position - begin.position, angle * turn.axis()};
+        return {end.position - begin.position, toRotationVector(end.orientation * begin.orientation.conjugate())};
     }
     /// Between two parts, evenly. @param to no farther than either flew, or from both
     MovingShape moving(const Body& body, double from, double to) const {
@@ -130,12 +136,13 @@ double lastPart(const PairOnWay& pair, PartAndDepth begin, PartAndDepth end, dou
 /// What the bodies of a pair may fly of their flights; pair.part() = all that they flew.
 /// @param passes whether they flew so far past each other that they may be apart again
 double partFor(const PairOnWay& pair, double most, bool passes) {
+    const double now = pair.depthAt(pair.part());
+    if (!passes && !(now > most)) return pair.part();
     const double before = pair.depthAt(0);
     if (passes && before < most) {
         const double first = pair.firstPart(most);
         if (first < pair.part()) return first;
     }
-    const double now = pair.depthAt(pair.part());
     const double allowed = std::max(most, before);
     if (!(now > (1 + rounding) * allowed)) return pair.part();
     return lastPart(pair, {0, before}, {pair.part(), now}, allowed);
@@ -173,12 +180,33 @@ void findStuck(const WaysInput& input, std::vector<std::uint8_t>& stuck) {
     }
 }
 
-void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& found) {
-    const BodyStorage& b = input.bodies;
+namespace {
+
+/// Calls look(pair, part) for all pairs that may have to go back, each thread with its part of what is found.
+template <class Look>
+void forPairs(const WaysInput& input, std::vector<std::vector<TooDeep>>& found, const Look& look) {
     found.resize(static_cast<std::size_t>(input.executor.threads()));
     for (std::vector<TooDeep>& part : found) part.clear();
-    const auto look = [&](const ContactPair& pair, std::vector<TooDeep>& part) {
-        if (!input.back.empty() && (input.back[pair.a] | input.back[pair.b]) == 0) return;
+    input.executor.forBlocks(
+        input.pairs.size(),
+        [&](std::size_t begin, std::size_t end, int thread) {
+            std::vector<TooDeep>& part = found[static_cast<std::size_t>(thread)];
+            for (const ContactPair& pair : input.pairs.subspan(begin, end - begin)) {
+                if (input.back.empty() || (input.back[pair.a] | input.back[pair.b]) != 0) look(pair, part);
+            }
+        },
+        asked_grain);
+}
+
+bool mayGoBack(const WaysInput& input, const ContactPair& pair) {
+    return pair.isTested() && (mayGoBack(input, pair.a) || mayGoBack(input, pair.b));
+}
+
+}  // namespace
+
+void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& found) {
+    const BodyStorage& b = input.bodies;
+    forPairs(input, found, [&](const ContactPair& pair, std::vector<TooDeep>& part) {
         const double r_min = std::min(b.r_min[pair.a], b.r_min[pair.b]);
         const double most =
             std::max(least_overlap * 2 * r_min, most_overlap * input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]));
@@ -186,19 +214,26 @@ void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& foun
             pair.touches() ? input.contacts.subspan(pair.first, pair.count) : std::span<const Contact>();
         const bool deep = std::ranges::any_of(contacts, [&](const Contact& c) { return c.distance < -most; });
         const bool fast = flownPast(input, pair) > r_min;
-        if (!deep && !fast) return;
-        if (!pair.isTested() || (!mayGoBack(input, pair.a) && !mayGoBack(input, pair.b))) return;
+        if ((!deep && !fast) || !mayGoBack(input, pair)) return;
         const PairOnWay on_way(input, pair);
         const double flown = partFor(on_way, most, fast);
         if (flown < on_way.part()) part.push_back({pair, flown});
-    };
-    input.executor.forBlocks(
-        input.pairs.size(),
-        [&](std::size_t begin, std::size_t end, int thread) {
-            std::vector<TooDeep>& part = found[static_cast<std::size_t>(thread)];
-            for (std::size_t n = begin; n < end; ++n) look(input.pairs[n], part);
-        },
-        asked_grain);
+    });
+}
+
+void findPressed(const WaysInput& input, std::span<const CorrectedBody> corrected,
+                 std::vector<std::vector<TooDeep>>& found) {
+    const BodyStorage& b = input.bodies;
+    forPairs(input, found, [&](const ContactPair& pair, std::vector<TooDeep>& part) {
+        const double allowed = input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
+        const CorrectedBody& one = corrected[pair.a];
+        const CorrectedBody& other = corrected[pair.b];
+        if (!(one.moved + other.moved > least_moved * allowed) || !mayGoBack(input, pair)) return;
+        const double most = std::max({most_pressed, most_shared * one.deepest, most_shared * other.deepest});
+        const PairOnWay on_way(input, pair);
+        const double pushed = partFor(on_way, most * allowed, false);
+        if (pushed < on_way.part()) part.push_back({pair, pushed});
+    });
 }
 
 }  // namespace cairn

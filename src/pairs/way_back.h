@@ -43,4 +43,16 @@ bool mayGoBack(const WaysInput& input, BodyIndex i);
 /// and those of which one flew through the other. @param found out: by thread, in the order of the pairs
 void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& found);
 
+/// What the correction found and did of a body.
+struct CorrectedBody {
+    double moved = 0;    ///< how far its surface went at most [m]
+    double deepest = 0;  ///< its largest overlap before, as a multiple of what was allowed there
+};
+
+/// Finds the pairs that the correction pressed deeper into each other than it may, than they were, and than most of
+/// what one of them was in somebody else: what cannot go at once is shared with neighbours, and becomes less.
+/// @param input with the ways of the correction @param corrected [slots] @param found as of findTooDeep()
+void findPressed(const WaysInput& input, std::span<const CorrectedBody> corrected,
+                 std::vector<std::vector<TooDeep>>& found);
+
 }  // namespace cairn

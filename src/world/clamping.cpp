@@ -1,7 +1,10 @@
 #include "world/clamping.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
+
+#include "math/rotation.h"
 
 namespace cairn {
 
@@ -13,17 +16,19 @@ constexpr int most_exact = 4;
 /// … and after so many what is too deep stays so in this step.
 constexpr int most_rounds = 256;
 
-/// Less of a flight than this is none.
+/// Less of a way than this is none.
 constexpr double least_part = 0.02;
+
+/// Batches with overlaps of more than this multiple of what is allowed began so.
+constexpr double most_grown = 10;
 
 /// @param round from 0 on
 double settledPart(double part, int round) {
     return round >= most_exact || part < least_part ? 0 : part;
 }
 
-/// Finds to where bodies go back. @return whether any does
+/// Finds to where the bodies of data.too_deep go back. @return whether any does
 bool findPlaces(StepData& data, const WaysInput& input, int round) {
-    findTooDeep(input, data.too_deep);
     if (std::ranges::all_of(data.too_deep, [](const auto& part) { return part.empty(); })) return false;
     data.go_back_to.assign(input.bodies.slots(), 1);
     for (const std::vector<TooDeep>& part : data.too_deep) {
@@ -34,6 +39,32 @@ bool findPlaces(StepData& data, const WaysInput& input, int round) {
         }
     }
     return true;
+}
+
+/// Notes how far surfaces of bodies went since the detection. @return whether any did
+bool findMoved(const BodyStorage& bodies, std::vector<CorrectedBody>& corrected) {
+    corrected.assign(bodies.slots(), {});
+    bool any = false;
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        if (bodies.kind[i] != BodyKind::dynamic || bodies.position[i] == bodies.detected_position[i]) continue;
+        const double cosine = bodies.orientation[i].dot(bodies.detected_orientation[i]);
+        const double turned = 2 * std::sqrt(std::max(0.0, 1 - cosine * cosine));
+        corrected[i].moved = (bodies.position[i] - bodies.detected_position[i]).norm() + bodies.r_max[i] * turned;
+        any = true;
+    }
+    return any;
+}
+
+/// Notes the bodies of batches in which some are far in each other.
+void findDeepBatches(StepData& data, std::size_t slots) {
+    data.stuck.assign(slots, 0);
+    for (const BatchView& batch : data.views) {
+        const auto isFar = [&](std::uint32_t i) {
+            return data.contacts[i].distance < -most_grown * data.contacts[i].allowed_overlap;
+        };
+        if (std::ranges::none_of(batch.contacts, isFar)) continue;
+        for (const BodyIndex i : batch.bodies) data.stuck[i] = 1;
+    }
 }
 
 }  // namespace
@@ -47,12 +78,15 @@ void clampMotion(WorldState& world, const PairsInput& pairs) {
                 back,         world.executor};
     };
     // In most steps nobody goes back, and then it is all the same who could not.
+    findTooDeep(inputOf({}, {}), data.too_deep);
     if (!findPlaces(data, inputOf({}, {}), 0)) return;
     findStuck(inputOf({}, {}), data.stuck);
     data.stopped.assign(world.bodies.slots(), 0);
     std::span<const std::uint8_t> back;
     for (int round = 0; round < most_rounds; ++round) {
-        if (!findPlaces(data, inputOf(data.stuck, back), round)) return;
+        const WaysInput input = inputOf(data.stuck, back);
+        findTooDeep(input, data.too_deep);
+        if (!findPlaces(data, input, round)) return;
         data.back.assign(world.bodies.slots(), 0);
         for (BodyIndex i = 0; i < world.bodies.slots(); ++i) {
             if (!(data.go_back_to[i] < way[i].part)) continue;
@@ -62,6 +96,43 @@ void clampMotion(WorldState& world, const PairsInput& pairs) {
         }
         back = data.back;
         data.pairs.detectBack(pairs, back, data.contacts);
+    }
+}
+
+void clampCorrection(WorldState& world, const DetectionRange& range) {
+    StepData& data = world.data;
+    BodyStorage& bodies = world.bodies;
+    if (!findMoved(bodies, data.corrected)) return;
+    for (const Contact& contact : data.contacts) {
+        for (const BodyIndex i : {contact.a, contact.b}) {
+            double& deepest = data.corrected[i].deepest;
+            deepest = std::max(deepest, -contact.distance / contact.allowed_overlap);
+        }
+    }
+    findDeepBatches(data, bodies.slots());
+    std::vector<BodyWay>& way = data.correction_way;
+    way.resize(bodies.slots());
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        way[i].begin = {bodies.detected_position[i], bodies.detected_orientation[i]};
+        way[i].part = data.corrected[i].moved > 0 ? 1 : 0;
+    }
+    std::span<const std::uint8_t> back;
+    for (int round = 0; round < most_rounds; ++round) {
+        const WaysInput input{bodies, data.pairs.pairs(), data.contacts, range,         way,
+                              {},     data.stuck,         back,          world.executor};
+        findPressed(input, data.corrected, data.too_deep);
+        if (!findPlaces(data, input, round)) return;
+        data.back.assign(bodies.slots(), 0);
+        for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+            if (!(data.go_back_to[i] < way[i].part)) continue;
+            const Pose to = poseOnWay({bodies.position[i], bodies.orientation[i]}, way[i], data.go_back_to[i]);
+            bodies.position[i] = to.position;
+            bodies.orientation[i] = to.orientation;
+            bodies.inertiaInv_W[i] = toWorldInertia(bodies.inertiaInv_B[i], bodies.orientation[i]);
+            way[i].part = data.go_back_to[i];
+            data.back[i] = 1;
+        }
+        back = data.back;
     }
 }
 

@@ -135,14 +135,21 @@ void correctBatches(WorldState& world) {
     // What this lifts a body that bounces is in the account of its bounce.
     const bool touching = world.settings.resolution.restitution_speed == RestitutionSpeed::touching;
     if (!touching) bodies.acceleration = world.gravity + world.global_acceleration;
-    data.schedule.forEach(world.executor, [&](std::uint32_t batch, int thread) {
-        const auto t = static_cast<std::size_t>(thread);
-        const CorrectionCounts counts = world.corrections[t]->correct(data.views[batch], data.contacts_of,
-                                                                      data.contacts, bodies, remaining_penetration);
-        data.correction_counts[t].penetrating += counts.penetrating;
-        data.correction_counts[t].corrected += counts.corrected;
-        data.correction_counts[t].uncorrected += counts.uncorrected;
-        data.correction_counts[t].displaced += counts.displaced;
+    const auto forBatches = [&](const auto& work) {
+        data.schedule.forEach(world.executor, [&](std::uint32_t batch, int thread) {
+            const auto t = static_cast<std::size_t>(thread);
+            data.correction_counts[t].add(work(*world.corrections[t], data.views[batch]));
+        });
+    };
+    forBatches([&](Correction& correction, const BatchView& batch) {
+        return correction.correct(batch, data.contacts_of, data.contacts, bodies, remaining_penetration);
+    });
+    // The thesis's goes where it goes.
+    if (world.settings.correction.correction != CorrectionKind::position_sweeps) return;
+    clampCorrection(world, rangeOf(world));
+    const PosesBefore before{world.bodies.detected_position, world.bodies.detected_orientation};
+    forBatches([&](Correction& correction, const BatchView& batch) {
+        return correction.settle(batch, data.contacts, bodies, before);
     });
 }
 

@@ -111,6 +111,8 @@ struct StepData {
     std::vector<std::vector<TooDeep>> too_deep;  ///< detection: [threads] kept memory
     std::vector<std::uint8_t> stuck;             ///< detection: [slots] 1 = began deep in others
     std::vector<double> go_back_to;              ///< detection: [slots] kept memory
+    std::vector<CorrectedBody> corrected;        ///< correction: [slots]
+    std::vector<BodyWay> correction_way;         ///< correction: [slots]
     std::vector<std::uint8_t> back;              ///< detection: [slots] kept memory
     std::vector<std::uint8_t> stopped;           ///< detection: [slots] 1 = went back; empty = nobody did
     std::vector<double> shortest_of;             ///< detection: [threads] kept memory

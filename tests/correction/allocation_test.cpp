@@ -63,9 +63,12 @@ TEST(PositionSweeps, AllocateNothingOnceTheyKnowTheBatch) {
     const auto correction = makeCorrection(CorrectionKind::position_sweeps);
     const auto step = [&] {
         std::ranges::copy(start, scene.contacts.begin());
+        const auto position = scene.position;
+        const auto orientation = scene.orientation;
         const std::size_t before = allocations;
-        const CorrectionCounts counts =
+        CorrectionCounts counts =
             correction->correct({bodies, indices}, {}, scene.contacts, scene.state(), scene.remaining_part);
+        counts.add(correction->settle({bodies, indices}, scene.contacts, scene.state(), {position, orientation}));
         EXPECT_GT(counts.displaced, 0);
         return allocations - before;
     };

@@ -145,6 +145,25 @@ TEST(WayBack, LeavesThoseWhoBeganFarInEachOther) {
     EXPECT_EQ(stuck, (std::vector<std::uint8_t>{0, 0}));
 }
 
+TEST(WayBack, LeadsToWhereTheCorrectionPressesNobodyIntoOthers) {
+    TwoBalls balls;
+    balls.addOnWay(2.01, 1.9);
+    balls.find();
+    std::vector<std::vector<TooDeep>> found;
+    const auto pressed = [&](double deepest) -> std::vector<TooDeep> {
+        const std::vector<CorrectedBody> corrected{{}, {.moved = 0.11, .deepest = deepest}};
+        findPressed(balls.input(), corrected, found);
+        return found.at(0);
+    };
+    const auto depth = [](const TooDeep& pair) { return 2 - (2.01 - 0.11 * pair.part); };
+    // As deep as the correction leaves others, and not as deep as it was in somebody else.
+    ASSERT_EQ(pressed(0).size(), 1);
+    EXPECT_NEAR(depth(pressed(0)[0]), 1.35 * allowed, 0.05 * 1.35 * allowed);
+    ASSERT_EQ(pressed(3).size(), 1);
+    EXPECT_NEAR(depth(pressed(3)[0]), 0.9 * 3 * allowed, 0.05 * 0.9 * 3 * allowed);
+    EXPECT_TRUE(pressed(4).empty());
+}
+
 TEST(WayBack, IsAPoseOnTheWay) {
     BodyWay way;
     way.begin.position = Vec3(1, 0, 0);
