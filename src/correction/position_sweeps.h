@@ -18,6 +18,9 @@ namespace cairn {
 /// than lifted, and the cost follows the number of contacts. Of what the first sweeps leave too deep, the heavier
 /// body of a contact takes a larger part: light bodies between heavy ones have nowhere to go.
 ///
+/// Only first-order distances of the contacts there are tell it where to stop, so somebody may take bodies back before
+/// all this is settled.
+///
 /// What this lifts is paid for: the bodies that gained potential energy are owed by the motion along the normals of
 /// their contacts. Each contact in turn gives what it has and they still owe, by an equal and opposite impulse that
 /// slows closing or separating bodies down and never reverses them. Momentum is kept, and a pile that is pushed apart

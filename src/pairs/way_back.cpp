@@ -16,10 +16,8 @@ namespace {
 constexpr double least_overlap = 0.03;
 constexpr double most_overlap = 3;
 
-/// The correction may press others into each other by this multiple of the overlap that they are allowed; what it
-/// moves by less than this multiple of it is not asked.
+/// The correction may press others into each other by this multiple of the overlap that they are allowed.
 constexpr double most_pressed = 1.35;
-constexpr double least_moved = 0.5;
 
 /// Nor by more than this part of what the deeper of them was in others before.
 constexpr double most_shared = 0.9;
@@ -168,18 +166,6 @@ bool mayGoBack(const WaysInput& input, BodyIndex i) {
     return input.ways[i].part > 0 && (input.jointed.empty() || input.jointed[i] == 0);
 }
 
-void findStuck(const WaysInput& input, std::vector<std::uint8_t>& stuck) {
-    stuck.assign(input.bodies.slots(), 0);
-    for (const ContactPair& pair : input.pairs) {
-        if (!pair.touches()) continue;
-        const auto contacts = input.contacts.subspan(pair.first, pair.count);
-        const auto isFar = [](const Contact& c) { return c.distance < -most_grown * c.allowed_overlap; };
-        if (std::ranges::none_of(contacts, isFar)) continue;
-        const double before = PairOnWay(input, pair).depthAt(0);
-        if (before > most_grown * contacts.front().allowed_overlap) stuck[pair.a] = stuck[pair.b] = 1;
-    }
-}
-
 namespace {
 
 /// Calls look(pair, part) for all pairs that may have to go back, each thread with its part of what is found.
@@ -198,11 +184,26 @@ void forPairs(const WaysInput& input, std::vector<std::vector<TooDeep>>& found, 
         asked_grain);
 }
 
+std::span<const Contact> contactsOf(const WaysInput& input, const ContactPair& pair) {
+    return pair.touches() ? input.contacts.subspan(pair.first, pair.count) : std::span<const Contact>();
+}
+
 bool mayGoBack(const WaysInput& input, const ContactPair& pair) {
     return pair.isTested() && (mayGoBack(input, pair.a) || mayGoBack(input, pair.b));
 }
 
 }  // namespace
+
+void findStuck(const WaysInput& input, std::vector<std::uint8_t>& stuck) {
+    stuck.assign(input.bodies.slots(), 0);
+    for (const ContactPair& pair : input.pairs) {
+        const auto contacts = contactsOf(input, pair);
+        const auto isFar = [](const Contact& c) { return c.distance < -most_grown * c.allowed_overlap; };
+        if (std::ranges::none_of(contacts, isFar)) continue;
+        const double before = PairOnWay(input, pair).depthAt(0);
+        if (before > most_grown * contacts.front().allowed_overlap) stuck[pair.a] = stuck[pair.b] = 1;
+    }
+}
 
 void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& found) {
     const BodyStorage& b = input.bodies;
@@ -210,9 +211,8 @@ void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& foun
         const double r_min = std::min(b.r_min[pair.a], b.r_min[pair.b]);
         const double most =
             std::max(least_overlap * 2 * r_min, most_overlap * input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]));
-        const auto contacts =
-            pair.touches() ? input.contacts.subspan(pair.first, pair.count) : std::span<const Contact>();
-        const bool deep = std::ranges::any_of(contacts, [&](const Contact& c) { return c.distance < -most; });
+        const auto isDeep = [&](const Contact& contact) { return contact.distance < -most; };
+        const bool deep = std::ranges::any_of(contactsOf(input, pair), isDeep);
         const bool fast = flownPast(input, pair) > r_min;
         if ((!deep && !fast) || !mayGoBack(input, pair)) return;
         const PairOnWay on_way(input, pair);
@@ -225,11 +225,16 @@ void findPressed(const WaysInput& input, std::span<const CorrectedBody> correcte
                  std::vector<std::vector<TooDeep>>& found) {
     const BodyStorage& b = input.bodies;
     forPairs(input, found, [&](const ContactPair& pair, std::vector<TooDeep>& part) {
-        const double allowed = input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
         const CorrectedBody& one = corrected[pair.a];
         const CorrectedBody& other = corrected[pair.b];
-        if (!(one.moved + other.moved > least_moved * allowed) || !mayGoBack(input, pair)) return;
+        const double moved = one.moved + other.moved;
+        if (!(moved > 0) || !mayGoBack(input, pair)) return;
+        const double allowed = input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
         const double most = std::max({most_pressed, most_shared * one.deepest, most_shared * other.deepest});
+        // They are no deeper than they were by more than they moved.
+        double deepest = moved;
+        for (const Contact& contact : contactsOf(input, pair)) deepest = std::max(deepest, moved - contact.distance);
+        if (!(deepest > most * allowed)) return;
         const PairOnWay on_way(input, pair);
         const double pushed = partFor(on_way, most * allowed, false);
         if (pushed < on_way.part()) part.push_back({pair, pushed});

@@ -19,9 +19,6 @@ constexpr int most_rounds = 256;
 /// Less of a way than this is none.
 constexpr double least_part = 0.02;
 
-/// Batches with overlaps of more than this multiple of what is allowed began so.
-constexpr double most_grown = 10;
-
 /// @param round from 0 on
 double settledPart(double part, int round) {
     return round >= most_exact || part < least_part ? 0 : part;
@@ -53,18 +50,6 @@ bool findMoved(const BodyStorage& bodies, std::vector<CorrectedBody>& corrected)
         any = true;
     }
     return any;
-}
-
-/// Notes the bodies of batches in which some are far in each other.
-void findDeepBatches(StepData& data, std::size_t slots) {
-    data.stuck.assign(slots, 0);
-    for (const BatchView& batch : data.views) {
-        const auto isFar = [&](std::uint32_t i) {
-            return data.contacts[i].distance < -most_grown * data.contacts[i].allowed_overlap;
-        };
-        if (std::ranges::none_of(batch.contacts, isFar)) continue;
-        for (const BodyIndex i : batch.bodies) data.stuck[i] = 1;
-    }
 }
 
 }  // namespace
@@ -105,11 +90,11 @@ void clampCorrection(WorldState& world, const DetectionRange& range) {
     if (!findMoved(bodies, data.corrected)) return;
     for (const Contact& contact : data.contacts) {
         for (const BodyIndex i : {contact.a, contact.b}) {
+            if (bodies.kind[i] != BodyKind::dynamic) continue;
             double& deepest = data.corrected[i].deepest;
             deepest = std::max(deepest, -contact.distance / contact.allowed_overlap);
         }
     }
-    findDeepBatches(data, bodies.slots());
     std::vector<BodyWay>& way = data.correction_way;
     way.resize(bodies.slots());
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
@@ -118,8 +103,7 @@ void clampCorrection(WorldState& world, const DetectionRange& range) {
     }
     std::span<const std::uint8_t> back;
     for (int round = 0; round < most_rounds; ++round) {
-        const WaysInput input{bodies, data.pairs.pairs(), data.contacts, range,         way,
-                              {},     data.stuck,         back,          world.executor};
+        const WaysInput input{bodies, data.pairs.pairs(), data.contacts, range, way, {}, {}, back, world.executor};
         findPressed(input, data.corrected, data.too_deep);
         if (!findPlaces(data, input, round)) return;
         data.back.assign(bodies.slots(), 0);

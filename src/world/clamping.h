@@ -10,9 +10,8 @@ namespace cairn {
 /// @pre the pairs were detected where bodies are now, and are so again then
 void clampMotion(WorldState& world, const PairsInput& pairs);
 
-/// Takes back on their ways bodies that the correction pressed into others, until there are none; those of batches that
-/// began far in each other come apart only through each other. @pre bodies are where they were detected, but for what
-/// the correction moved them since
+/// Takes back on their ways bodies that the correction pressed too deep into others, until there are none. @pre bodies
+/// are where they were detected, but for what the correction moved them since
 void clampCorrection(WorldState& world, const DetectionRange& range);
 
 }  // namespace cairn
