@@ -20,15 +20,8 @@ constexpr int most_halvings = 6;
 /// They are as deep as asked for when no more than this part of the depth is missing.
 constexpr double depth_tolerance = 1e-2;
 
-/// How deep two shapes are in each other after a time [m]; 0 = not at all.
 double depthAfter(const MovingShape& a, const MovingShape& b, double time) {
-    Manifold manifold;
-    double depth = 0;
-    const auto look = [&](const Manifold& found) {
-        for (std::size_t i = 0; i < found.size; ++i) depth = std::max(depth, -found.points[i].distance);
-    };
-    forEachManifold(a.shape, a.poseAfter(time), b.shape, b.poseAfter(time), 0, manifold, look);
-    return depth;
+    return overlapDepth(a.shape, a.poseAfter(time), b.shape, b.poseAfter(time));
 }
 
 /// As timeOfOverlap(), in steps. @param begin when they are not that deep [s]
@@ -58,6 +51,16 @@ Pose MovingShape::poseAfter(double time) const {
     if (time == 0) return pose;
     const Quat turn = fromRotationVector(w * time);
     return {centre + v * time + turn * (pose.position - centre), (turn * pose.orientation).normalized()};
+}
+
+double overlapDepth(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
+    Manifold manifold;
+    double depth = 0;
+    const auto look = [&](const Manifold& found) {
+        for (std::size_t i = 0; i < found.size; ++i) depth = std::max(depth, -found.points[i].distance);
+    };
+    forEachManifold(a, pose_a, b, pose_b, 0, manifold, look);
+    return depth;
 }
 
 std::optional<double> timeOfOverlap(const MovingShape& a, const MovingShape& b, double time, double depth) {

@@ -95,17 +95,10 @@ bool PairAhead::meetsWith(const BodyAhead* a, const BodyAhead* b, double depth) 
                              depth)
             .has_value();
     }
-    bool deep = false;
-    Manifold manifold;
-    const auto look = [&](const Manifold& found) {
-        for (std::size_t i = 0; i < found.size; ++i) deep = deep || found.points[i].distance < -depth;
-    };
     const auto end = [&](BodyIndex i, const BodyAhead* ahead) {
         return ahead != nullptr ? poseAfter(bodies_, i, *ahead, range_.foresight.time) : bodies_.shapePose(i);
     };
-    forEachManifold(bodies_.shape[pair_.a], end(pair_.a, a), bodies_.shape[pair_.b], end(pair_.b, b), 0, manifold,
-                    look);
-    return deep;
+    return overlapDepth(bodies_.shape[pair_.a], end(pair_.a, a), bodies_.shape[pair_.b], end(pair_.b, b)) > depth;
 }
 
 double PairAhead::way() const {

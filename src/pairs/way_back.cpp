@@ -46,14 +46,7 @@ class PairOnWay {
 
     /// How deep they are in each other after a part of their flights [m]; 0 = not at all.
     double depthAt(double part) const {
-        double depth = 0;
-        Manifold manifold;
-        const auto look = [&](const Manifold& found) {
-            for (std::size_t k = 0; k < found.size; ++k) depth = std::max(depth, -found.points[k].distance);
-        };
-        forEachManifold(bodies_.shape[a_.body], shapePose(a_, part), bodies_.shape[b_.body], shapePose(b_, part), 0,
-                        manifold, look);
-        return depth;
+        return overlapDepth(bodies_.shape[a_.body], shapePose(a_, part), bodies_.shape[b_.body], shapePose(b_, part));
     }
 
     /// After what part they are so deep in each other first; part() if never.
