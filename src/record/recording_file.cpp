@@ -17,6 +17,10 @@ namespace {
 /// attempts takes minutes on a truncated file.
 constexpr unsigned metadata_read_attempts = 27;
 
+/// A kill ends a write between two pages of the system. HDF5's pages are as large, and no part of its metadata that
+/// fits into one lies in two, so a writer that is killed leaves such a part as it was or as it should be.
+constexpr hsize_t page_size = 4096;
+
 }  // namespace
 
 File createFile(const std::filesystem::path& path, const FileDriver& driver, WriteState& state) {
@@ -25,7 +29,10 @@ File createFile(const std::filesystem::path& path, const FileDriver& driver, Wri
     checked(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110), path, "cannot be created");
     checked(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), path, "cannot be created");
     driver.useFor(access, state, path);
-    File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
+    const Properties creation(H5Pcreate(H5P_FILE_CREATE), path, "cannot be created");
+    checked(H5Pset_file_space_strategy(creation.get(), H5F_FSPACE_STRATEGY_PAGE, false, 1), path, "cannot be created");
+    checked(H5Pset_file_space_page_size(creation.get(), page_size), path, "cannot be created");
+    File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()));
     if (!file && state.error == 0) fail(path, "cannot be created");
     return file;
 }

@@ -3,12 +3,30 @@
 #include <hdf5.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <functional>
 
 #include "record/recording_fixture.h"
+
+namespace {
+
+/// The how manieth write into two pages is cut between them by a kill; 0 = none. The system can do the same.
+std::size_t torn_write = 0;
+
+}  // namespace
+
+/// In place of the C library's.
+extern "C" ssize_t pwrite(int file, const void* from, size_t size, off_t at) {
+    constexpr std::size_t page = 4096;
+    const std::size_t first = page - static_cast<std::size_t>(at) % page;
+    const bool torn = torn_write > 0 && first < size && --torn_write == 0;
+    const ssize_t written = syscall(SYS_pwrite64, file, from, torn ? first : size, at);
+    if (torn) kill(getpid(), SIGKILL);
+    return written;
+}
 
 namespace cairn::test {
 namespace {
@@ -110,6 +128,19 @@ TEST(Recording, survivesTheDeathOfItsWriter) {
     }
 }
 
+TEST(Recording, survivesAKillAmidAWrite) {
+    const TemporaryFolder folder;
+    for (std::size_t write = 1; write < 400; write += 13) {
+        WriterProcess process([&](const auto& tell) {
+            torn_write = write;
+            return writeForEver(folder / "torn.h5", tell);
+        });
+        const std::size_t told = process.countFrames();
+        EXPECT_TRUE(WIFSIGNALED(process.end(0)));
+        if (told > 0) expectFrames(folder / "torn.h5", told);
+    }
+}
+
 TEST(Recording, refusesTruncatedFilesAndSaysSo) {
     const TemporaryFolder folder;
     recordFrames(folder / "closed.h5", 20);
@@ -206,7 +237,7 @@ TEST(Recording, keepsTheFramesBeforeTheDiskWasFull) {
     const TemporaryFolder folder;
     std::size_t most_frames = 0;
     // Every step of writing is once the one that fails: the header, chunks, their index, the superblock.
-    for (rlim_t room = 100; room < 60000; room += 997) {
+    for (rlim_t room = 100; room < 90000; room += 1497) {
         WriterProcess process([&](const auto& tell) { return recordOnFullDisk(folder / "full.h5", room, tell); });
         const std::size_t told = process.countFrames();
         const int status = process.end(0);
@@ -224,7 +255,7 @@ TEST(Recording, keepsTheFramesBeforeTheDiskWasFull) {
 TEST(Recording, refusesMoreFramesAfterAFailure) {
     const TemporaryFolder folder;
     WriterProcess process([&](const auto&) {
-        const rlimit limit{40000, 40000};
+        const rlimit limit{60000, 60000};
         signal(SIGXFSZ, SIG_IGN);
         setrlimit(RLIMIT_FSIZE, &limit);
         const Scene scene = smallScene();
