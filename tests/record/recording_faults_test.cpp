@@ -13,7 +13,7 @@
 
 namespace {
 
-/// The how manieth write into two pages is cut between them by a kill; 0 = none. The system can do the same.
+/// Writes that lie in two pages until one is cut between these by a kill, as the system may do; 0 = none is.
 std::size_t torn_write = 0;
 
 }  // namespace
