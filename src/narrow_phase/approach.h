@@ -22,6 +22,9 @@ struct MovingShape {
 /// How deep two shapes are in each other [m]; 0 = not at all.
 double overlapDepth(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
 
+/// As a multiple of the depth that two shapes have now: one that timeOfOverlap() does not take for reached.
+inline constexpr double clearly_deeper = 1.02;
+
 /// When two shapes, if nothing stopped them, would first overlap by more than a depth within a time step [s]; none if
 /// they would not. Conservative advancement: no time is passed over in which they could. What is not decided after a
 /// number of rounds, since they graze each other, is looked at from there on in steps in which no point of one passes

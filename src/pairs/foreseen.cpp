@@ -65,14 +65,17 @@ void lookAhead(const BodyStorage& bodies, const DetectionRange& range, BodyIndex
     ahead.way.upper += way.cwiseMax(0);
 }
 
+bool flies(const BodyStorage& bodies, BodyIndex i) {
+    return bodies.kind[i] == BodyKind::dynamic && bodies.asleep[i] == 0;
+}
+
 bool movesFar(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, const Vec3& v, const Vec3& w) {
     const double least = least_stroke * range.overlapOf(bodies.r_min[i], bodies.r_min[i]);
     return range.foresight.time * (v.norm() + w.norm() * bodies.r_max[i]) > least;
 }
 
 bool isStruck(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, const BodyAhead& ahead) {
-    if (bodies.kind[i] != BodyKind::dynamic || bodies.asleep[i] != 0) return false;
-    return movesFar(bodies, range, i, bodies.v[i] - ahead.v, bodies.w[i] - ahead.w) &&
+    return flies(bodies, i) && movesFar(bodies, range, i, bodies.v[i] - ahead.v, bodies.w[i] - ahead.w) &&
            movesFar(bodies, range, i, bodies.v[i], bodies.w[i]);
 }
 
@@ -126,7 +129,10 @@ void PairAhead::forEachAtEnd(Manifold& manifold, FunctionRef<void(const AtEnd&)>
     const auto moving = [&](BodyIndex i, const BodyAhead& ahead) {
         return movingShape(bodies_, i, ahead.reach > 0 ? &ahead : nullptr);
     };
-    const auto met = timeOfOverlap(moving(pair_.a, a_), moving(pair_.b, b_), time, depth);
+    const double now = overlapDepth(bodies_.shape[pair_.a], bodies_.shapePose(pair_.a), bodies_.shape[pair_.b],
+                                    bodies_.shapePose(pair_.b));
+    const double deeper = std::max(depth, clearly_deeper * now);
+    const auto met = timeOfOverlap(moving(pair_.a, a_), moving(pair_.b, b_), time, deeper);
     if (met && *met > 0) forEachAfter(*met, depth / 2, manifold, use);
 }
 
@@ -137,7 +143,8 @@ bool PairAhead::forEachAfter(double time, double depth, Manifold& manifold, Func
         if (!(ahead.reach > 0)) return point;
         const Vec3 lever = point - (bodies_.position[i] + bodies_.v[i] * time);
         if (ahead.turning == 0) return bodies_.position[i] + lever;
-        return bodies_.position[i] + fromRotationVector(bodies_.w[i] * time).conjugate() * lever;
+        // With the lever of halfway the velocity of now leads exactly there, however far the body turns.
+        return bodies_.position[i] + fromRotationVector(bodies_.w[i] * (time / 2)).conjugate() * lever;
     };
     bool any = false;
     const auto look = [&](const Manifold& found) {

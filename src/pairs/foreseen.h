@@ -55,6 +55,9 @@ struct BodyAhead {
 /// Fills in all but the bounds of now. @pre ahead.now
 void lookAhead(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, BodyAhead& ahead);
 
+/// Whether contacts move a body.
+bool flies(const BodyStorage& bodies, BodyIndex i);
+
 /// Whether a body, with the velocities that it has after the resolution, ends the step so far from where it was
 /// foreseen that others may be in the way there. @param ahead what was foreseen
 bool isStruck(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, const BodyAhead& ahead);

@@ -307,7 +307,8 @@ bool PairTable::findStruck(const PairsInput& input, const DetectionRange& range,
     input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
             const bool follows = !stopped.empty() && stopped[i] != 0;
-            const bool struck = isStruck(bodies, range, i, follows ? BodyAhead{} : ahead_[i]);
+            // Whoever went back does so in every step if the smallest part of its velocity that leads there stays.
+            const bool struck = follows ? flies(bodies, i) : isStruck(bodies, range, i, ahead_[i]);
             struck_[i] = struck ? 1 : 0;
             unmoved_[i] = struck ? 0 : 1;
             if (!struck) continue;

@@ -11,15 +11,17 @@ namespace cairn {
 
 namespace {
 
-/// Bodies may get into each other by this part of the smaller one's smallest extent, or by this multiple of the overlap
-/// that they are allowed, if that is more: less is for the correction.
+/// Impacts may get bodies into each other by this part of the smaller one's smallest extent, or by this multiple of the
+/// overlap that they are allowed, if that is more: less is for the correction.
 constexpr double least_overlap = 0.03;
 constexpr double most_overlap = 3;
 
-/// The correction may press others into each other by this multiple of the overlap that they are allowed.
-constexpr double most_pressed = 1.35;
+/// No impact does it where the correction presses them, or where they flew past each other by less than this part of
+/// the smaller one's inner radius: then they may by this multiple of what they are allowed only.
+constexpr double least_flight = 0.1;
+constexpr double most_pressed = 1.3;
 
-/// Nor by more than this part of what the deeper of them was in others before.
+/// The correction neither by more than this part of what the deeper of them was in others before.
 constexpr double most_shared = 0.9;
 
 /// Whoever overlaps by more than this multiple began so.
@@ -131,7 +133,7 @@ double partFor(const PairOnWay& pair, double most, bool passes) {
     if (!passes && !(now > most)) return pair.part();
     const double before = pair.depthAt(0);
     if (passes && before < most) {
-        const double first = pair.firstPart(most);
+        const double first = pair.firstPart(std::max(most, clearly_deeper * before));
         if (first < pair.part()) return first;
     }
     const double allowed = std::max(most, before);
@@ -202,11 +204,13 @@ void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& foun
     const BodyStorage& b = input.bodies;
     forPairs(input, found, [&](const ContactPair& pair, std::vector<TooDeep>& part) {
         const double r_min = std::min(b.r_min[pair.a], b.r_min[pair.b]);
-        const double most =
-            std::max(least_overlap * 2 * r_min, most_overlap * input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]));
+        const double allowed = input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
+        const double passed = flownPast(input, pair);
+        const double most = passed < least_flight * r_min ? most_pressed * allowed
+                                                          : std::max(least_overlap * 2 * r_min, most_overlap * allowed);
         const auto isDeep = [&](const Contact& contact) { return contact.distance < -most; };
         const bool deep = std::ranges::any_of(contactsOf(input, pair), isDeep);
-        const bool fast = flownPast(input, pair) > r_min;
+        const bool fast = passed > r_min;
         if ((!deep && !fast) || !mayGoBack(input, pair)) return;
         const PairOnWay on_way(input, pair);
         const double flown = partFor(on_way, most, fast);

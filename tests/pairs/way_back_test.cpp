@@ -71,6 +71,21 @@ TEST(WayBack, LeavesBodiesThatAreHardlyInEachOther) {
     EXPECT_TRUE(balls.find().empty());
 }
 
+TEST(WayBack, LeadsSlowBodiesToWhereNoImpactIsNeeded) {
+    TwoBalls balls;
+    balls.addOnWay(2 - 0.5 * allowed, 2 - 1.5 * allowed);
+    const std::vector<TooDeep> found = balls.find();
+    ASSERT_EQ(found.size(), 1);
+    EXPECT_NEAR(found[0].part, 0.8, 0.1);
+}
+
+TEST(WayBack, LeavesBodiesThatSlideApartFast) {
+    TwoBalls balls;
+    balls.addOnWay(2 - 2.99 * allowed, 2 - 2.99 * allowed);
+    balls.bodies.position[1].y() = balls.bodies.linear_step[1].y() = 1.5;
+    EXPECT_TRUE(balls.find().empty());
+}
+
 TEST(WayBack, LeadsToBeforeTheBodyThatWasFlownThrough) {
     TwoBalls balls;
     balls.addOnWay(5, -5);

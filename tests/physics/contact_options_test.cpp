@@ -1,7 +1,9 @@
 /// Options of the contact law and the diagnostics, on whole worlds against closed forms.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cairn/world.h"
 
@@ -256,6 +258,15 @@ World tumbling(Settings settings) {
     return world;
 }
 
+/// Sum of the magnitudes of what bodies have [N·s].
+double momentumOf(const World& world) {
+    double sum = 0;
+    for (const BodyId id : world.bodies()) {
+        if (!world.isFixed(id)) sum += world.mass(id) * world.linearVelocity(id).norm();
+    }
+    return sum;
+}
+
 class Accounts : public testing::TestWithParam<ResolutionKind> {};
 
 TEST_P(Accounts, OfEnergyAndMomentumCloseInEveryStep) {
@@ -266,7 +277,10 @@ TEST_P(Accounts, OfEnergyAndMomentumCloseInEveryStep) {
         world.step();
         const Diagnostics& d = world.statistics().diagnostics;
         ASSERT_NEAR(d.energy_error, 0, 1e-11) << "step " << i;
-        ASSERT_LT(d.momentum_error, 1e-12) << "step " << i;
+        // Each sweep rounds each velocity.
+        const double sweeps = static_cast<double>(world.statistics().global_iterations);
+        const double rounding = std::numeric_limits<double>::epsilon() * sweeps * momentumOf(world);
+        ASSERT_LT(d.momentum_error, std::max(1e-12, rounding)) << "step " << i;
         ASSERT_NEAR(d.energy, world.kineticEnergy() + world.potentialEnergy(), 1e-12);
         friction += d.energy_friction;
         restitution += d.energy_restitution;
