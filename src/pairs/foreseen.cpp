@@ -143,7 +143,7 @@ bool PairAhead::forEachAfter(double time, double depth, Manifold& manifold, Func
         if (!(ahead.reach > 0)) return point;
         const Vec3 lever = point - (bodies_.position[i] + bodies_.v[i] * time);
         if (ahead.turning == 0) return bodies_.position[i] + lever;
-        // With the lever of halfway the velocity of now leads exactly there, however far the body turns.
+        // The velocity at the lever of halfway leads along the chord of the turn, that of now along its tangent.
         return bodies_.position[i] + fromRotationVector(bodies_.w[i] * (time / 2)).conjugate() * lever;
     };
     bool any = false;
