@@ -11,14 +11,12 @@ namespace cairn {
 
 namespace {
 
-/// Impacts may get bodies into each other by this part of the smaller one's smallest extent, or by this multiple of the
-/// overlap that they are allowed, if that is more: less is for the correction.
+/// Bodies that flew past each other by the smaller one's inner radius may be in each other by this part of its smallest
+/// extent, or by this multiple of the overlap that they are allowed, if that is more, …
 constexpr double least_overlap = 0.03;
 constexpr double most_overlap = 3;
 
-/// No impact does it where the correction presses them, or where they flew past each other by less than this part of
-/// the smaller one's inner radius: then they may by this multiple of what they are allowed only.
-constexpr double least_flight = 0.1;
+/// … and where the correction presses them, or where they hardly flew, by this multiple of what they are allowed only.
 constexpr double most_pressed = 1.3;
 
 /// The correction neither by more than this part of what the deeper of them was in others before.
@@ -145,14 +143,27 @@ double partFor(const PairOnWay& pair, double most, bool passes) {
 double flownPast(const WaysInput& input, const BodyPair& pair) {
     const BodyStorage& b = input.bodies;
     const auto turned = [&](BodyIndex i) {
-        if (!(input.ways[i].part > 0) || !std::isfinite(b.r_max[i])) return 0.0;
-        const double cosine = b.orientation[i].dot(input.ways[i].begin.orientation);
-        return 2 * b.r_max[i] * std::sqrt(std::max(0.0, 1 - cosine * cosine));
+        return input.ways[i].part > 0 ? turnedWay(b, i, input.ways[i].begin.orientation) : 0.0;
     };
     return (b.linear_step[pair.a] - b.linear_step[pair.b]).norm() + turned(pair.a) + turned(pair.b);
 }
 
 }  // namespace
+
+double turnedWay(const BodyStorage& bodies, BodyIndex i, const Quat& before) {
+    const double reach = bodies.r_max[i];
+    if (!std::isfinite(reach)) return 0;
+    const Quat& now = bodies.orientation[i];
+    const Shape& shape = bodies.shape[i];
+    const bool central = bodies.p_BS[i].isZero(0);
+    if (central && std::holds_alternative<Sphere>(shape)) return 0;
+    if (central && (std::holds_alternative<Capsule>(shape) || std::holds_alternative<Cylinder>(shape))) {
+        const Vec3 axis = bodies.R_BS[i] * Vec3::UnitZ();
+        return reach * (now * axis - before * axis).norm();
+    }
+    const double cosine = now.dot(before);
+    return 2 * reach * std::sqrt(std::max(0.0, 1 - cosine * cosine));
+}
 
 bool mayGoBack(const WaysInput& input, BodyIndex i) {
     const BodyStorage& bodies = input.bodies;
@@ -206,8 +217,9 @@ void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& foun
         const double r_min = std::min(b.r_min[pair.a], b.r_min[pair.b]);
         const double allowed = input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
         const double passed = flownPast(input, pair);
-        const double most = passed < least_flight * r_min ? most_pressed * allowed
-                                                          : std::max(least_overlap * 2 * r_min, most_overlap * allowed);
+        // What a contact foreseen for a straight way does not tell grows with the way.
+        const double after_flight = std::max(least_overlap * 2 * r_min, most_overlap * allowed);
+        const double most = std::lerp(most_pressed * allowed, after_flight, std::min(1.0, passed / r_min));
         const auto isDeep = [&](const Contact& contact) { return contact.distance < -most; };
         const bool deep = std::ranges::any_of(contactsOf(input, pair), isDeep);
         const bool fast = passed > r_min;

@@ -36,6 +36,10 @@ struct WaysInput {
 /// @param stuck out: [slots] 1 = is one of them
 void findStuck(const WaysInput& input, std::vector<std::uint8_t>& stuck);
 
+/// How far points of a body's surface went at most as it turned [m]. What is round about an axis may turn about it as
+/// it likes. @param before its orientation then
+double turnedWay(const BodyStorage& bodies, BodyIndex i, const Quat& before);
+
 /// Whether a body may go back.
 bool mayGoBack(const WaysInput& input, BodyIndex i);
 

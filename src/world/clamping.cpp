@@ -1,7 +1,6 @@
 #include "world/clamping.h"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 
 #include "math/rotation.h"
@@ -44,9 +43,8 @@ bool findMoved(const BodyStorage& bodies, std::vector<CorrectedBody>& corrected)
     bool any = false;
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (bodies.kind[i] != BodyKind::dynamic || bodies.position[i] == bodies.detected_position[i]) continue;
-        const double cosine = bodies.orientation[i].dot(bodies.detected_orientation[i]);
-        const double turned = 2 * std::sqrt(std::max(0.0, 1 - cosine * cosine));
-        corrected[i].moved = (bodies.position[i] - bodies.detected_position[i]).norm() + bodies.r_max[i] * turned;
+        corrected[i].moved = (bodies.position[i] - bodies.detected_position[i]).norm() +
+                             turnedWay(bodies, i, bodies.detected_orientation[i]);
         any = true;
     }
     return any;

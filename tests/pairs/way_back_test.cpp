@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "broad_phase/hash_grids.h"
@@ -67,8 +69,18 @@ TEST(WayBack, LeadsToWhereBodiesWereAsDeepAsTheyMayBe) {
 
 TEST(WayBack, LeavesBodiesThatAreHardlyInEachOther) {
     TwoBalls balls;
-    balls.addOnWay(2.4, 2 - 2.9 * allowed);
+    balls.addOnWay(3.1, 2 - 2.9 * allowed);
     EXPECT_TRUE(balls.find().empty());
+}
+
+TEST(WayBack, LetsBodiesGetDeeperTheFartherTheyFlew) {
+    // Half of the inner radius: half of the way from 1.3 to 3 times what they may.
+    for (const auto& [multiple, deep] : {std::pair(2.1, false), std::pair(2.2, true)}) {
+        TwoBalls balls;
+        const double now = 2 - multiple * allowed;
+        balls.addOnWay(now + 0.5, now);
+        EXPECT_EQ(balls.find().size(), deep ? 1 : 0) << multiple;
+    }
 }
 
 TEST(WayBack, LeadsSlowBodiesToWhereNoImpactIsNeeded) {
@@ -77,6 +89,38 @@ TEST(WayBack, LeadsSlowBodiesToWhereNoImpactIsNeeded) {
     const std::vector<TooDeep> found = balls.find();
     ASSERT_EQ(found.size(), 1);
     EXPECT_NEAR(found[0].part, 0.8, 0.1);
+}
+
+TEST(WayBack, TakesSlowBallsThatSpinForSlow) {
+    TwoBalls balls;
+    balls.addOnWay(2 - 0.5 * allowed, 2 - 1.5 * allowed);
+    balls.bodies.orientation[1] = Quat(Eigen::AngleAxisd(1, Vec3(1, 2, 3).normalized()));
+    const std::vector<TooDeep> found = balls.find();
+    ASSERT_EQ(found.size(), 1);
+    EXPECT_NEAR(found[0].part, 0.8, 0.1);
+}
+
+TEST(WayBack, NoPointOfASurfaceTurnsFartherThanSaid) {
+    TwoBalls balls;
+    BodyStorage& b = balls.bodies;
+    const double angle = 0.4;
+    const double far = 2 * 3.2 * std::sin(angle / 2);
+    b.r_max[0] = 3.2;
+    b.orientation[0] = Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
+    const auto turned = [&] { return turnedWay(b, 0, Quat::Identity()); };
+    EXPECT_EQ(turned(), 0);
+    b.p_BS[0] = Vec3(1, 0, 0);
+    EXPECT_NEAR(turned(), far, 1e-12);
+    for (const Shape& round : {Shape{Capsule{0.2, 6}}, Shape{Cylinder{0.2, 6}}}) {
+        b.shape[0] = round;
+        b.p_BS[0] = Vec3::Zero();
+        b.R_BS[0] = Quat::Identity();
+        EXPECT_EQ(turned(), 0);
+        b.R_BS[0] = Quat(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()));
+        EXPECT_NEAR(turned(), far, 1e-12);
+    }
+    b.shape[0] = Box{Vec3(2, 2, 6)};
+    EXPECT_NEAR(turned(), far, 1e-12);
 }
 
 TEST(WayBack, LeavesBodiesThatSlideApartFast) {
