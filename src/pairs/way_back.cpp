@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "body/roundness.h"
 #include "math/rotation.h"
 #include "narrow_phase/approach.h"
 
@@ -154,10 +155,9 @@ double turnedWay(const BodyStorage& bodies, BodyIndex i, const Quat& before) {
     const double reach = bodies.r_max[i];
     if (!std::isfinite(reach)) return 0;
     const Quat& now = bodies.orientation[i];
-    const Shape& shape = bodies.shape[i];
-    const bool central = bodies.p_BS[i].isZero(0);
-    if (central && std::holds_alternative<Sphere>(shape)) return 0;
-    if (central && (std::holds_alternative<Capsule>(shape) || std::holds_alternative<Cylinder>(shape))) {
+    const Roundness round = roundnessOf(bodies, i);
+    if (round == Roundness::everywhere) return 0;
+    if (round == Roundness::about_axis) {
         const Vec3 axis = bodies.R_BS[i] * Vec3::UnitZ();
         return reach * (now * axis - before * axis).norm();
     }

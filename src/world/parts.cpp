@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "batches/batch_motion.h"
+#include "body/roundness.h"
 #include "world/division.h"
 #include "world/joints.h"
 
@@ -42,9 +43,9 @@ bool mayDivide(const Settings& settings) {
 Vec3 turningOf(const BodyStorage& bodies, BodyIndex i) {
     const Vec3& w = bodies.w[i];
     if (w.isZero(0)) return w;
-    const Shape& shape = bodies.shape[i];
-    if (std::holds_alternative<Sphere>(shape) && bodies.p_BS[i].isZero(0)) return Vec3::Zero();
-    if (!std::holds_alternative<Capsule>(shape) && !std::holds_alternative<Cylinder>(shape)) return w;
+    const Roundness round = roundnessOf(bodies, i);
+    if (round == Roundness::everywhere) return Vec3::Zero();
+    if (round == Roundness::none) return w;
     const Vec3 axis = bodies.shapePose(i).orientation * Vec3::UnitZ();
     return w - w.dot(axis) * axis;
 }
