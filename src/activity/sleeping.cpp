@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/rotation.h"
 #include "math/tolerances.h"
 
 namespace cairn {
@@ -45,6 +46,23 @@ double initialMotion(const SleepSettings& settings) {
 
 namespace {
 
+/// The rotation vector of a body over a time is told from its orientations up to this angle [rad].
+constexpr double most_turned = 1;
+
+/// The squared motion (3.2.3) of a body, of its velocity or of where it went, whichever is less [m²/s²].
+double motionOf(const BodyState& bodies, const MotionState& state, BodyIndex i) {
+    const double by_velocity = squaredMotion(bodies.v[i], bodies.w[i], state.r_max[i]);
+    if (state.way.empty()) return by_velocity;
+    const BodyWay& way = state.way[i];
+    const double time = state.part_length;
+    if (!(way.w.norm() * time < most_turned)) return by_velocity;
+    const Vec3 v = (bodies.position[i] - way.begin.position) / time;
+    const Vec3 w = toRotationVector(bodies.orientation[i] * way.begin.orientation.conjugate()) / time;
+    const Vec3 gained_v = bodies.v[i] - way.v;
+    const Vec3 gained_w = bodies.w[i] - way.w;
+    return std::min(by_velocity, squaredMotion(v + gained_v, w + gained_w, state.r_max[i]));
+}
+
 /// Whether a constant force is too weak to show within one step: such a body must stay awake.
 bool isWeaklyPushed(const BodyState& bodies, const MotionState& state, BodyIndex i, double threshold,
                     double time_step) {
@@ -84,9 +102,8 @@ void fallAsleep(const BodyState& bodies, const MotionState& state, const SleepSe
     executor.forBlocks(bodies.size(), [&](std::size_t begin, std::size_t end, int) {
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
             if (bodies.isFixed(i) || bodies.asleep[i] != 0) continue;
-            const double squared = squaredMotion(bodies.v[i], bodies.w[i], state.r_max[i]);
             double& motion = state.motion[i];
-            motion = bias * motion + (1 - bias) * squared;
+            motion = bias * motion + (1 - bias) * motionOf(bodies, state, i);
             if (!(motion < threshold)) {
                 motion = std::min(motion, limit);
                 continue;

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "body/body_storage.h"
+#include "body/body_way.h"
 #include "body/contact.h"
 #include "cairn/settings.h"
 #include "parallel/executor.h"
@@ -35,6 +36,8 @@ struct MotionState {
     std::span<const Vec3> constant_force;      ///< [N]
     std::span<const Vec3> constant_torque;     ///< [N·m]
     std::span<const std::uint8_t> together{};  ///< 1 = sleeps only with others; empty = none does
+    std::span<const BodyWay> way{};            ///< since the beginning of the last part of the step; empty = unknown
+    double part_length = 0;                    ///< [s]
 };
 
 /// How long a step is.
@@ -51,8 +54,9 @@ double motionBias(const StepLength& step);
 /// so that rest must be proven first.
 double initialMotion(const SleepSettings& settings);
 
-/// Algorithm 5 for every awake body. A body with a constant force too weak to show within one step stays awake, since
-/// (3.2.5) holds for every lasting force.
+/// Algorithm 5 for every awake body. Who is held back by others or pushed back by the correction has a velocity and
+/// goes nowhere: where it is known how bodies went, only that and what their velocities gained since is motion. A body
+/// with a constant force too weak to show within one step stays awake, since (3.2.5) holds for every lasting force.
 void fallAsleep(const BodyState& bodies, const MotionState& motion, const SleepSettings& settings,
                 const StepLength& step, const Executor& executor);
 

@@ -8,6 +8,7 @@ namespace cairn {
 /// From where a body flew, and how far it got.
 struct BodyWay {
     Pose begin;             ///< of the centre of mass, where it began to fly [m, W]
+    Vec3 v = Vec3::Zero();  ///< then [m/s, W]
     Vec3 w = Vec3::Zero();  ///< then [rad/s, W]
     double part = 1;        ///< of its flight that it has flown, 0 to 1
 };
@@ -17,6 +18,7 @@ template <class AnyWay, class Visit>
 void forMembers(AnyWay& way, const Visit& visit) {
     visit(way.begin.position);
     visit(way.begin.orientation);
+    visit(way.v);
     visit(way.w);
     visit(way.part);
 }

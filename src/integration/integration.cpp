@@ -181,7 +181,7 @@ void beginWays(const BodyStorage& bodies, const Executor& executor, VelocitiesBe
         for (std::size_t i = begin; i < end; ++i) {
             if (bodies.kind[i] == BodyKind::hole) continue;
             const bool flies = bodies.kind[i] == BodyKind::dynamic && bodies.asleep[i] == 0;
-            before.way[i] = {{bodies.position[i], bodies.orientation[i]}, bodies.w[i], flies ? 1.0 : 0.0};
+            before.way[i] = {{bodies.position[i], bodies.orientation[i]}, bodies.v[i], bodies.w[i], flies ? 1.0 : 0.0};
         }
     });
 }
@@ -193,7 +193,7 @@ void flyBack(BodyStorage& bodies, BodyIndex i, double part, const Vec3& accelera
     bodies.orientation[i] = way.begin.orientation;
     bodies.inertiaInv_W[i] = toWorldInertia(bodies.inertiaInv_B[i], bodies.orientation[i]);
     bodies.w[i] = way.w;
-    bodies.v[i] += (1 - way.part) * gain;
+    bodies.v[i] = way.v;
     way.part = part;
     // What turns freely does not turn evenly, so that no place on the way tells how fast it turns there.
     advancePosition(bodies, i, part * time_step);

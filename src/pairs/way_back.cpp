@@ -69,7 +69,7 @@ class PairOnWay {
             if (mayGoBack(input, i)) {
                 way = input.ways[i];
             } else {
-                way = {now, Vec3::Zero(), 0};
+                way = {.begin = now, .part = 0};
             }
         }
         BodyIndex body;

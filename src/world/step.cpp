@@ -265,8 +265,12 @@ void sleepStage(WorldState& world) {
     BodyStorage& b = world.bodies;
     const std::span<const std::uint8_t> others = listNotSleeping(world);
     const StepLength step{world.settings.timeStep(), std::ldexp(StepLength{}.usual, world.step_exponent)};
-    fallAsleep(b.state(), {b.motion, b.r_max, b.constant_force, b.constant_torque, others}, world.settings.sleep, step,
-               world.executor);
+    MotionState motion{b.motion, b.r_max, b.constant_force, b.constant_torque, others};
+    if (foresees(world.settings)) {
+        motion.way = world.data.before.way;
+        motion.part_length = world.part.length;
+    }
+    fallAsleep(b.state(), motion, world.settings.sleep, step, world.executor);
     letJointedSleep(world);
 }
 

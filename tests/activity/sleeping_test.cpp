@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace cairn {
@@ -121,6 +124,44 @@ TEST(FallingAsleep, FollowsAlgorithm5) {
     EXPECT_EQ(s.bodies.asleep[0], 1);
     EXPECT_EQ(s.bodies.v[0], Vec3::Zero());
     EXPECT_DOUBLE_EQ(s.bodies.motion[0], 1e-4);
+}
+
+TEST(FallingAsleep, WhoGoesNowhereSleepsInSpiteOfItsVelocity) {
+    Fixture s(4);
+    const SleepSettings settings{.sleep_threshold = 0.01};
+    const Vec3 v(0, 0, -0.05);
+    const Vec3 w(0.1, 0, 0);
+    const std::vector<BodyWay> way(4, BodyWay{.begin = {}, .v = v, .w = w});
+    const auto sleep = [&] {
+        MotionState motion{s.bodies.motion, s.bodies.r_max, s.bodies.constant_force, s.bodies.constant_torque};
+        motion.way = way;
+        motion.part_length = time_step;
+        fallAsleep(s.bodies.state(), motion, settings, {.time = time_step}, one_thread);
+    };
+    for (int i = 0; i < 4; ++i) s.bodies.motion[i] = 0;
+    std::ranges::fill(s.bodies.v, v);
+    std::ranges::fill(s.bodies.w, w);
+    // The first is where it was, the second went by its velocity, the third turned by it, and the last was struck.
+    s.bodies.position[1] = time_step * v;
+    s.bodies.orientation[2] = Quat(Eigen::AngleAxisd(time_step * w.norm(), Vec3::UnitX()));
+    s.bodies.v[3] = Vec3(1, 0, 0);
+    sleep();
+    EXPECT_EQ(std::vector<int>(s.bodies.asleep.begin(), s.bodies.asleep.end()), (std::vector<int>{1, 0, 0, 0}));
+    EXPECT_NEAR(s.bodies.motion[1], 0.1 * 2 * 0.05 * 0.05, 1e-15);
+    EXPECT_NEAR(s.bodies.motion[2], 0.1 * 2 * 0.1 * 0.1 * 0.5 * 0.5, 1e-15);
+}
+
+TEST(FallingAsleep, WhoTurnsOnceInAStepDoesNotSleep) {
+    Fixture s(1);
+    const SleepSettings settings{.sleep_threshold = 0.01};
+    const std::vector<BodyWay> way(1, BodyWay{.begin = {}, .w = Vec3(0, 0, 2 * std::numbers::pi / time_step)});
+    s.bodies.motion[0] = 0;
+    s.bodies.w[0] = way[0].w;
+    MotionState motion{s.bodies.motion, s.bodies.r_max, s.bodies.constant_force, s.bodies.constant_torque};
+    motion.way = way;
+    motion.part_length = time_step;
+    fallAsleep(s.bodies.state(), motion, settings, {.time = time_step}, one_thread);
+    EXPECT_EQ(s.bodies.asleep[0], 0);
 }
 
 TEST(FallingAsleep, TheHistoryDecaysAlikeAtAnyTimeStep) {
