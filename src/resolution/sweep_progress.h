@@ -55,16 +55,27 @@ class SweepProgress {
     /// Sweeps that seem not to converge at all count as slow ones.
     static constexpr double assumed_rate = 0.7, fastest_rate = 0.3, slowest_rate = 0.95;
 
+    /// How much less a sweep changes than the one before it, of late or since the second sweep, whichever is slower:
+    /// conjugate directions advance unevenly, and one sweep that changes little does not tell that all will.
+    double rateOf(double change) const {
+        if (!(last_ > 0)) return slowest_rate;
+        const double late = change / last_;
+        if (estimates_ == 1) return std::clamp(late, assumed_rate, slowest_rate);
+        const double mean = second_ > 0 ? std::pow(change / second_, 1.0 / (estimates_ - 1)) : late;
+        return std::clamp(std::max(late, mean), fastest_rate, slowest_rate);
+    }
+
     /// Estimates what all further sweeps would change, from how fast the changes become smaller: after a change c of a
     /// part r of the one before it, a geometric series leaves c·r/(1 − r). Deep piles, through which impulses have a
     /// long way, converge slowly and so are solved longer than shallow ones.
     bool isLittleLeft(double change) {
         if (plan_.tolerance == 0) return false;
-        const double least = estimates_ == 1 ? assumed_rate : fastest_rate;
-        const double rate = last_ > 0 ? std::clamp(change / last_, least, slowest_rate) : slowest_rate;
+        const double rate = rateOf(change);
         const double left = estimates_ == 0 ? change : change * rate / (1 - rate);
         last_ = change;
-        if (estimates_++ == 0) first_ = change;
+        if (estimates_ == 0) first_ = change;
+        if (estimates_ == 1) second_ = change;
+        ++estimates_;
         const double scale = estimates_ == 1 ? plan_.motion : std::max(plan_.motion, first_);
         return left <= plan_.tolerance * scale;
     }
@@ -73,6 +84,7 @@ class SweepProgress {
     std::int64_t sweeps_ = 0;
     double gradient_ = 0;  ///< squared change of the last sweep; 0 = there is no direction
     double first_ = 0;
+    double second_ = 0;
     double last_ = 0;
     int estimates_ = 0;
 };
