@@ -162,7 +162,8 @@ TEST(ClosedSurfaces, BodiesSlideRollAndRestAlongACylinder) {
     for (const auto& [name, shape] : testing::solids()) {
         if (std::string_view(name) == "hull" || std::string_view(name) == "compound") continue;  // they tumble
         const double height = heightOf(shape);
-        EXPECT_LT(apart(shape, {{Vec3(0, -1.5, height)}, Vec3(0, 1.7, 0), Vec3::Zero(), 0.05}), 1e-9) << name << " slides";
+        EXPECT_LT(apart(shape, {{Vec3(0, -1.5, height)}, Vec3(0, 1.7, 0), Vec3::Zero(), 0.05}), 1e-9)
+            << name << " slides";
         EXPECT_LT(apart(shape, {{Vec3(0, 0.2, height)}}), 1e-9) << name << " rests";
     }
     EXPECT_LT(apart(Sphere{0.2}, {{Vec3(0, -4, 0.2)}, Vec3(0, 1.7, 0), Vec3(-8.5, 0, 0)}), 1e-9);
@@ -182,7 +183,8 @@ TEST(ClosedSurfaces, BodiesMoveOverFacetsAsOnTheirHull) {
     for (const auto& [name, shape] : testing::solids()) {
         if (std::string_view(name) == "compound") continue;
         const double height = heightOf(shape);
-        EXPECT_LT(apart(shape, {{Vec3(0, -1.5, height)}, Vec3(0, 1.7, 0), Vec3::Zero(), 0.05}), 1e-9) << name << " slides";
+        EXPECT_LT(apart(shape, {{Vec3(0, -1.5, height)}, Vec3(0, 1.7, 0), Vec3::Zero(), 0.05}), 1e-9)
+            << name << " slides";
         if (std::string_view(name) != "hull") {  // which tumbles for long
             EXPECT_LT(apart(shape, {{Vec3(0, 0.2, height)}}), 1e-9) << name << " rests";
         }
