@@ -30,7 +30,7 @@ const PlacedGround& fineGround() {
 
 TEST(SurfaceMotion, BodiesSlideAsOnThePlane) {
     for (const auto& [name, shape] : testing::solids()) {
-        Start start{{Vec3(0.1, 0.2, heightOf(shape))}, Vec3(1.6, 0.7, 0), {}, 0.05};
+        Start start{{Vec3(0.1, 0.2, heightOf(shape))}, Vec3(1.6, 0.7, 0), Vec3::Zero(), 0.05};
         EXPECT_LT(difference(shape, start, plane(), fineGround(), 5), 1e-9) << name;
     }
 }
@@ -47,8 +47,10 @@ TEST(SurfaceMotion, RoundBodiesRollAsOnThePlane) {
 
 TEST(SurfaceMotion, BodiesRestAsOnThePlane) {
     for (const auto& [name, shape] : testing::solids()) {
-        Start start{
-            {Vec3(0.3, -0.2, heightOf(shape) + 0.01), Quat(Eigen::AngleAxisd(0.4, Vec3::UnitZ()))}, {}, {}, 0.5};
+        Start start{{Vec3(0.3, -0.2, heightOf(shape) + 0.01), Quat(Eigen::AngleAxisd(0.4, Vec3::UnitZ()))},
+                    Vec3::Zero(),
+                    Vec3::Zero(),
+                    0.5};
         EXPECT_LT(difference(shape, start, plane(), fineGround(), 5), 1e-9) << name;
     }
 }
