@@ -48,6 +48,7 @@ struct BodyArrays {
     FieldArray<Vec3> constant_force, constant_torque;  ///< in every step [N], [N·m, W]
     FieldArray<std::uint32_t> place;                   ///< among the bodies of its batch
     FieldArray<std::uint8_t> asleep;                   ///< 1 = asleep
+    FieldArray<std::uint8_t> held;                     ///< 1 = it hardly got anywhere on its last flight
     FieldArray<WakeReason> woken;                      ///< why it woke in this step
     FieldArray<double> motion;          ///< rwa: recency-weighted average of the squared motion [m²/s²] (3.2.4)
     FieldArray<std::int32_t> supports;  ///< contacts in the direction of gravity in the last step; −1 = unknown
@@ -131,6 +132,7 @@ inline constexpr auto body_fields = std::tuple{
     BodyField{&BodyArrays::constant_torque, "constant_torque", "N·m", Change::calls},
     BodyField{&BodyArrays::place, "place", "1", Change::anew},
     BodyField{&BodyArrays::asleep, "asleep", "", Change::steps},
+    BodyField{&BodyArrays::held, "held", "", Change::steps},
     BodyField{&BodyArrays::woken, "woken", "", Change::steps},
     BodyField{&BodyArrays::motion, "motion", "m²/s²", Change::steps},
     BodyField{&BodyArrays::supports, "supports", "1", Change::steps, [] { return -1; }},

@@ -12,15 +12,10 @@ namespace cairn {
 
 namespace {
 
-/// Bodies that flew past each other by the smaller one's inner radius may be in each other by this part of its smallest
-/// extent, or by this multiple of the overlap that they are allowed, if that is more, …
-constexpr double least_overlap = 0.03;
-constexpr double most_overlap = 3;
+/// Bodies may be in each other by this multiple of the overlap that they are allowed …
+constexpr double most_overlap = 1.3;
 
-/// … and where the correction presses them, or where they hardly flew, by this multiple of what they are allowed only.
-constexpr double most_pressed = 1.3;
-
-/// The correction neither by more than this part of what the deeper of them was in others before.
+/// … or by this part of what the deeper of them was in others before, where the correction moves them.
 constexpr double most_shared = 0.9;
 
 /// Whoever overlaps by more than this multiple began so.
@@ -215,14 +210,10 @@ void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& foun
     const BodyStorage& b = input.bodies;
     forPairs(input, found, [&](const ContactPair& pair, std::vector<TooDeep>& part) {
         const double r_min = std::min(b.r_min[pair.a], b.r_min[pair.b]);
-        const double allowed = input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
-        const double passed = flownPast(input, pair);
-        // What a contact foreseen for a straight way does not tell grows with the way.
-        const double after_flight = std::max(least_overlap * 2 * r_min, most_overlap * allowed);
-        const double most = std::lerp(most_pressed * allowed, after_flight, std::min(1.0, passed / r_min));
+        const double most = most_overlap * input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
         const auto isDeep = [&](const Contact& contact) { return contact.distance < -most; };
         const bool deep = std::ranges::any_of(contactsOf(input, pair), isDeep);
-        const bool fast = passed > r_min;
+        const bool fast = flownPast(input, pair) > r_min;
         if ((!deep && !fast) || !mayGoBack(input, pair)) return;
         const PairOnWay on_way(input, pair);
         const double flown = partFor(on_way, most, fast);
@@ -230,24 +221,39 @@ void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& foun
     });
 }
 
-void findPressed(const WaysInput& input, std::span<const CorrectedBody> corrected,
-                 std::vector<std::vector<TooDeep>>& found) {
+void findPressed(const WaysInput& input, std::span<const MovedBody> moved, std::vector<std::vector<TooDeep>>& found) {
     const BodyStorage& b = input.bodies;
     forPairs(input, found, [&](const ContactPair& pair, std::vector<TooDeep>& part) {
-        const CorrectedBody& one = corrected[pair.a];
-        const CorrectedBody& other = corrected[pair.b];
-        const double moved = one.moved + other.moved;
-        if (!(moved > 0) || !mayGoBack(input, pair)) return;
+        const MovedBody& one = moved[pair.a];
+        const MovedBody& other = moved[pair.b];
+        const double way = one.way + other.way;
+        if (!(way > 0) || !mayGoBack(input, pair)) return;
         const double allowed = input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
-        const double most = std::max({most_pressed, most_shared * one.deepest, most_shared * other.deepest});
+        const double most = std::max({most_overlap, most_shared * one.deepest, most_shared * other.deepest});
         // They are no deeper than they were by more than they moved.
-        double deepest = moved;
-        for (const Contact& contact : contactsOf(input, pair)) deepest = std::max(deepest, moved - contact.distance);
+        double deepest = way;
+        for (const Contact& contact : contactsOf(input, pair)) deepest = std::max(deepest, way - contact.distance);
         if (!(deepest > most * allowed)) return;
         const PairOnWay on_way(input, pair);
         const double pushed = partFor(on_way, most * allowed, false);
         if (pushed < on_way.part()) part.push_back({pair, pushed});
     });
+}
+
+void limitToDepths(const WaysInput& input, std::span<const MovedBody> moved, std::span<Contact> contacts) {
+    input.executor.forBlocks(
+        input.pairs.size(),
+        [&](std::size_t begin, std::size_t end, int) {
+            for (const ContactPair& pair : input.pairs.subspan(begin, end - begin)) {
+                if (!pair.touches() || !(moved[pair.a].way + moved[pair.b].way > 0)) continue;
+                const auto known = contacts.subspan(pair.first, pair.count);
+                const auto isDeep = [](const Contact& c) { return c.distance < -most_overlap * c.allowed_overlap; };
+                if (std::ranges::none_of(known, isDeep)) continue;
+                const double depth = PairOnWay(input, pair).depthAt(1);
+                for (Contact& contact : known) contact.distance = std::max(contact.distance, -depth);
+            }
+        },
+        asked_grain);
 }
 
 }  // namespace cairn

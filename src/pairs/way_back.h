@@ -47,16 +47,19 @@ bool mayGoBack(const WaysInput& input, BodyIndex i);
 /// and those of which one flew through the other. @param found out: by thread, in the order of the pairs
 void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& found);
 
-/// What the correction found and did of a body.
-struct CorrectedBody {
-    double moved = 0;    ///< how far its surface went at most [m]
-    double deepest = 0;  ///< its largest overlap before, as a multiple of what was allowed there
+/// A body that was moved without flying, as by the correction.
+struct MovedBody {
+    double way = 0;      ///< how far its surface went at most [m]
+    double deepest = 0;  ///< an overlap that it may share with neighbours, as a multiple of what is allowed there
 };
 
-/// Finds the pairs that the correction pressed deeper into each other than it may, than they were, and than most of
-/// what one of them was in somebody else: what cannot go at once is shared with neighbours, and becomes less.
-/// @param input with the ways of the correction @param corrected [slots] @param found as of findTooDeep()
-void findPressed(const WaysInput& input, std::span<const CorrectedBody> corrected,
-                 std::vector<std::vector<TooDeep>>& found);
+/// Finds the pairs that were pressed deeper into each other than they may be, than they were, and than most of what one
+/// of them was in somebody else: what cannot go at once is shared with neighbours, and becomes less.
+/// @param input with the ways of those that were moved @param moved [slots] @param found as of findTooDeep()
+void findPressed(const WaysInput& input, std::span<const MovedBody> moved, std::vector<std::vector<TooDeep>>& found);
+
+/// What the normal of a contact tells of bodies that were moved since may be too much: a pair is no deeper in each
+/// other than where it really is. @param contacts the same as of the input; out: distances @param moved [slots]
+void limitToDepths(const WaysInput& input, std::span<const MovedBody> moved, std::span<Contact> contacts);
 
 }  // namespace cairn

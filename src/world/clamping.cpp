@@ -18,6 +18,9 @@ constexpr int most_rounds = 256;
 /// Less of a way than this is none.
 constexpr double least_part = 0.02;
 
+/// Who gets no farther than this part of a flight is held.
+constexpr double most_held = 0.5;
+
 /// @param round from 0 on
 double settledPart(double part, int round) {
     return round >= most_exact || part < least_part ? 0 : part;
@@ -37,72 +40,35 @@ bool findPlaces(StepData& data, const WaysInput& input, int round) {
     return true;
 }
 
-/// Notes how far surfaces of bodies went since the detection. @return whether any did
-bool findMoved(const BodyStorage& bodies, std::vector<CorrectedBody>& corrected) {
-    corrected.assign(bodies.slots(), {});
+/// Notes how far surfaces of bodies went since they were somewhere else. @return whether any did
+bool findMoved(const BodyStorage& bodies, const PosesBefore& before, std::vector<MovedBody>& moved) {
+    moved.assign(bodies.slots(), {});
     bool any = false;
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (bodies.kind[i] != BodyKind::dynamic || bodies.position[i] == bodies.detected_position[i]) continue;
-        corrected[i].moved = (bodies.position[i] - bodies.detected_position[i]).norm() +
-                             turnedWay(bodies, i, bodies.detected_orientation[i]);
+        if (bodies.kind[i] != BodyKind::dynamic) continue;
+        const bool same = bodies.position[i] == before.position[i] &&
+                          bodies.orientation[i].coeffs() == before.orientation[i].coeffs();
+        if (same) continue;
+        moved[i].way = (bodies.position[i] - before.position[i]).norm() + turnedWay(bodies, i, before.orientation[i]);
         any = true;
     }
     return any;
 }
 
-}  // namespace
-
-void clampMotion(WorldState& world, const PairsInput& pairs) {
-    StepData& data = world.data;
-    std::vector<BodyWay>& way = data.before.way;
-    const Vec3 acceleration = world.gravity + world.global_acceleration;
-    const auto inputOf = [&](std::span<const std::uint8_t> stuck, std::span<const std::uint8_t> back) -> WaysInput {
-        return {world.bodies, data.pairs.pairs(), data.contacts, pairs.range, way, data.jointed, stuck,
-                back,         world.executor};
-    };
-    // In most steps nobody goes back, and then it is all the same who could not.
-    findTooDeep(inputOf({}, {}), data.too_deep);
-    if (!findPlaces(data, inputOf({}, {}), 0)) return;
-    findStuck(inputOf({}, {}), data.stuck);
-    data.stopped.assign(world.bodies.slots(), 0);
-    std::span<const std::uint8_t> back;
-    for (int round = 0; round < most_rounds; ++round) {
-        const WaysInput input = inputOf(data.stuck, back);
-        findTooDeep(input, data.too_deep);
-        if (!findPlaces(data, input, round)) return;
-        data.back.assign(world.bodies.slots(), 0);
-        for (BodyIndex i = 0; i < world.bodies.slots(); ++i) {
-            if (!(data.go_back_to[i] < way[i].part)) continue;
-            flyBack(world.bodies, i, data.go_back_to[i], acceleration, world.settings.sleep, world.part.length, way[i]);
-            data.back[i] = 1;
-            data.stopped[i] = 1;
-        }
-        back = data.back;
-        data.pairs.detectBack(pairs, back, data.contacts);
-    }
-}
-
-void clampCorrection(WorldState& world, const DetectionRange& range) {
+/// Takes back the bodies of data.moved until none is pressed too deep into others.
+void takeBackPressed(WorldState& world, const DetectionRange& range, const PosesBefore& before) {
     StepData& data = world.data;
     BodyStorage& bodies = world.bodies;
-    if (!findMoved(bodies, data.corrected)) return;
-    for (const Contact& contact : data.contacts) {
-        for (const BodyIndex i : {contact.a, contact.b}) {
-            if (bodies.kind[i] != BodyKind::dynamic) continue;
-            double& deepest = data.corrected[i].deepest;
-            deepest = std::max(deepest, -contact.distance / contact.allowed_overlap);
-        }
-    }
-    std::vector<BodyWay>& way = data.correction_way;
+    std::vector<BodyWay>& way = data.moved_way;
     way.resize(bodies.slots());
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        way[i].begin = {bodies.detected_position[i], bodies.detected_orientation[i]};
-        way[i].part = data.corrected[i].moved > 0 ? 1 : 0;
+        way[i].begin = {before.position[i], before.orientation[i]};
+        way[i].part = data.moved[i].way > 0 ? 1 : 0;
     }
     std::span<const std::uint8_t> back;
     for (int round = 0; round < most_rounds; ++round) {
         const WaysInput input{bodies, data.pairs.pairs(), data.contacts, range, way, {}, {}, back, world.executor};
-        findPressed(input, data.corrected, data.too_deep);
+        findPressed(input, data.moved, data.too_deep);
         if (!findPlaces(data, input, round)) return;
         data.back.assign(bodies.slots(), 0);
         for (BodyIndex i = 0; i < bodies.slots(); ++i) {
@@ -116,6 +82,83 @@ void clampCorrection(WorldState& world, const DetectionRange& range) {
         }
         back = data.back;
     }
+}
+
+/// Takes back those that flew too deep. @return whether there were any
+bool takeBackFlown(WorldState& world, const PairsInput& pairs) {
+    StepData& data = world.data;
+    std::vector<BodyWay>& way = data.before.way;
+    const Vec3 acceleration = world.gravity + world.global_acceleration;
+    const auto inputOf = [&](std::span<const std::uint8_t> stuck, std::span<const std::uint8_t> back) -> WaysInput {
+        return {world.bodies, data.pairs.pairs(), data.contacts, pairs.range, way, data.jointed, stuck,
+                back,         world.executor};
+    };
+    // In most steps nobody goes back, and then it is all the same who could not.
+    findTooDeep(inputOf({}, {}), data.too_deep);
+    if (!findPlaces(data, inputOf({}, {}), 0)) return false;
+    findStuck(inputOf({}, {}), data.stuck);
+    data.stopped.assign(world.bodies.slots(), 0);
+    std::span<const std::uint8_t> back;
+    for (int round = 0; round < most_rounds; ++round) {
+        const WaysInput input = inputOf(data.stuck, back);
+        findTooDeep(input, data.too_deep);
+        if (!findPlaces(data, input, round)) break;
+        data.back.assign(world.bodies.slots(), 0);
+        for (BodyIndex i = 0; i < world.bodies.slots(); ++i) {
+            if (!(data.go_back_to[i] < way[i].part)) continue;
+            flyBack(world.bodies, i, data.go_back_to[i], acceleration, world.settings.sleep, world.part.length, way[i]);
+            data.back[i] = 1;
+            data.stopped[i] = 1;
+        }
+        back = data.back;
+        data.pairs.detectBack(pairs, back, data.contacts);
+    }
+    return true;
+}
+
+}  // namespace
+
+void clampMotion(WorldState& world, const PairsInput& pairs) {
+    const StepData& data = world.data;
+    BodyStorage& bodies = world.bodies;
+    const bool any = takeBackFlown(world, pairs);
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        const double part = data.before.way[i].part;
+        const bool held = any && data.stopped[i] != 0 && part <= most_held;
+        if (held && bodies.held[i] != 0) {
+            // The contacts of the last step did not tell it either: with this velocity it goes nowhere.
+            bodies.v[i] *= part;
+            bodies.w[i] *= part;
+        }
+        bodies.held[i] = held ? 1 : 0;
+    }
+}
+
+bool clampCorrection(WorldState& world, const DetectionRange& range) {
+    StepData& data = world.data;
+    const BodyStorage& bodies = world.bodies;
+    const PosesBefore before{bodies.detected_position, bodies.detected_orientation};
+    if (!findMoved(bodies, before, data.moved)) return false;
+    for (const Contact& contact : data.contacts) {
+        for (const BodyIndex i : {contact.a, contact.b}) {
+            if (bodies.kind[i] != BodyKind::dynamic) continue;
+            double& deepest = data.moved[i].deepest;
+            deepest = std::max(deepest, -contact.distance / contact.allowed_overlap);
+        }
+    }
+    takeBackPressed(world, range, before);
+    return true;
+}
+
+void measureCorrected(WorldState& world, const DetectionRange& range) {
+    StepData& data = world.data;
+    const WaysInput input{world.bodies, data.pairs.pairs(), data.contacts, range, data.moved_way, {}, {},
+                          {},           world.executor};
+    limitToDepths(input, data.moved, data.contacts);
+}
+
+void clampCompletion(WorldState& world, const DetectionRange& range, const PosesBefore& before) {
+    if (findMoved(world.bodies, before, world.data.moved)) takeBackPressed(world, range, before);
 }
 
 }  // namespace cairn

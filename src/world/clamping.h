@@ -11,7 +11,13 @@ namespace cairn {
 void clampMotion(WorldState& world, const PairsInput& pairs);
 
 /// Takes back on their ways bodies that the correction pressed too deep into others, until there are none. @pre bodies
-/// are where they were detected, but for what the correction moved them since
-void clampCorrection(WorldState& world, const DetectionRange& range);
+/// are where they were detected, but for what the correction moved them since @return whether it moved any
+bool clampCorrection(WorldState& world, const DetectionRange& range);
+
+/// Lets contacts be no deeper than their bodies really are. @pre contacts follow what the correction did
+void measureCorrected(WorldState& world, const DetectionRange& range);
+
+/// Takes back bodies that the completion of their flights moved too deep into others. @param before it
+void clampCompletion(WorldState& world, const DetectionRange& range, const PosesBefore& before);
 
 }  // namespace cairn

@@ -146,11 +146,12 @@ void correctBatches(WorldState& world) {
     });
     // The thesis's goes where it goes.
     if (world.settings.correction.correction != CorrectionKind::position_sweeps) return;
-    clampCorrection(world, rangeOf(world));
+    const bool moved = clampCorrection(world, rangeOf(world));
     const PosesBefore before{world.bodies.detected_position, world.bodies.detected_orientation};
     forBatches([&](Correction& correction, const BatchView& batch) {
         return correction.settle(batch, data.contacts, bodies, before);
     });
+    if (moved) measureCorrected(world, rangeOf(world));
 }
 
 void correctStage(WorldState& world) {
@@ -207,6 +208,18 @@ void velocityStage(WorldState& world) {
     }
 }
 
+/// Completes flights as far as bodies have room.
+void completeMotion(WorldState& world, const DetectionRange& range) {
+    StepData& data = world.data;
+    if (foresees(world.settings)) {
+        data.uncompleted_position.assign(world.bodies.position.begin(), world.bodies.position.end());
+        data.uncompleted_orientation.assign(world.bodies.orientation.begin(), world.bodies.orientation.end());
+    }
+    completeSmoothMotion(world.bodies, data.before, data.jointed, world.part.length, world.executor);
+    if (!foresees(world.settings)) return;
+    clampCompletion(world, range, {data.uncompleted_position, data.uncompleted_orientation});
+}
+
 void resolveStage(WorldState& world) {
     StepData& data = world.data;
     BodyState bodies = world.bodies.state();
@@ -232,7 +245,7 @@ void resolveStage(WorldState& world) {
     measureIfAsked(world, Measured::resolution);
     if (world.settings.integration.exact_flight) {
         findBounced(world, bodies, data.before);
-        completeSmoothMotion(world.bodies, data.before, data.jointed, world.part.length, world.executor);
+        completeMotion(world, range);
     }
     if (world.settings.resolution.restitution_speed == RestitutionSpeed::touching) {
         liftBounced(world.bodies, data.before);

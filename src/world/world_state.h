@@ -111,8 +111,10 @@ struct StepData {
     std::vector<std::vector<TooDeep>> too_deep;  ///< detection: [threads] kept memory
     std::vector<std::uint8_t> stuck;             ///< detection: [slots] 1 = began deep in others
     std::vector<double> go_back_to;              ///< detection: [slots] kept memory
-    std::vector<CorrectedBody> corrected;        ///< correction: [slots]
-    std::vector<BodyWay> correction_way;         ///< correction: [slots]
+    std::vector<MovedBody> moved;                ///< correction, completion: [slots]
+    std::vector<BodyWay> moved_way;              ///< correction, completion: [slots]
+    std::vector<Vec3> uncompleted_position;      ///< resolution: [slots] before the completion [m, W]
+    std::vector<Quat> uncompleted_orientation;   ///< resolution: [slots] likewise
     std::vector<std::uint8_t> back;              ///< detection: [slots] kept memory
     std::vector<std::uint8_t> stopped;           ///< detection: [slots] 1 = went back; empty = nobody did
     std::vector<double> shortest_of;             ///< detection: [threads] kept memory

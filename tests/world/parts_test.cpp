@@ -150,23 +150,16 @@ void addPlates(World& world) {
     }
 }
 
-TEST(DividedSteps, PlatesThatTumbleOverlapLess) {
-    const auto largestOverlap = [](std::int64_t most_parts) {
+TEST(DividedSteps, PlatesThatTumbleOverlapNoMoreThanTheyMay) {
+    for (const std::int64_t most_parts : {1, 8}) {
         Hall hall(most_parts);
         addPlates(hall.world);
-        double largest = 0;
         for (int i = 0; i < 60; ++i) {
             hall.world.step();
-            largest = std::max(largest, hall.world.statistics().largest_overlap);
+            // 1.3 times what they are allowed: 1.45 % of the plates' thickness.
+            ASSERT_LE(hall.world.statistics().largest_overlap / 0.02, 1.31 * 0.0145) << most_parts << ", step " << i;
         }
-        return largest / 0.02;
-    };
-    const double whole = largestOverlap(1);
-    const double divided = largestOverlap(8);
-    RecordProperty("whole", std::to_string(whole));
-    RecordProperty("divided", std::to_string(divided));
-    EXPECT_LT(divided, 0.1);
-    EXPECT_LT(divided, whole / 2);
+    }
 }
 
 TEST(DividedSteps, DiagnosticsAccountForAllParts) {
