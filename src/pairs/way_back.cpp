@@ -226,11 +226,11 @@ void findPressed(const WaysInput& input, std::span<const MovedBody> moved, std::
     forPairs(input, found, [&](const ContactPair& pair, std::vector<TooDeep>& part) {
         const MovedBody& one = moved[pair.a];
         const MovedBody& other = moved[pair.b];
-        const double way = one.way + other.way;
-        if (!(way > 0) || !mayGoBack(input, pair)) return;
+        if (!(one.way + other.way > 0) || !mayGoBack(input, pair)) return;
         const double allowed = input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
         const double most = std::max({most_overlap, most_shared * one.deepest, most_shared * other.deepest});
         // They are no deeper than they were by more than they moved.
+        const double way = one.way + other.way + one.unsure + other.unsure;
         double deepest = way;
         for (const Contact& contact : contactsOf(input, pair)) deepest = std::max(deepest, way - contact.distance);
         if (!(deepest > most * allowed)) return;

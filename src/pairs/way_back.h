@@ -50,6 +50,7 @@ void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& foun
 /// A body that was moved without flying, as by the correction.
 struct MovedBody {
     double way = 0;      ///< how far its surface went at most [m]
+    double unsure = 0;   ///< and before, since contacts were found [m]
     double deepest = 0;  ///< an overlap that it may share with neighbours, as a multiple of what is allowed there
 };
 

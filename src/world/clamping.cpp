@@ -40,6 +40,15 @@ bool findPlaces(StepData& data, const WaysInput& input, int round) {
     return true;
 }
 
+/// How far the surface of a body went at most since it was somewhere else [m].
+double waySince(const BodyStorage& bodies, BodyIndex i, const Pose& before) {
+    return (bodies.position[i] - before.position).norm() + turnedWay(bodies, i, before.orientation);
+}
+
+Pose detectedPose(const BodyStorage& bodies, BodyIndex i) {
+    return {bodies.detected_position[i], bodies.detected_orientation[i]};
+}
+
 /// Notes how far surfaces of bodies went since they were somewhere else. @return whether any did
 bool findMoved(const BodyStorage& bodies, const PosesBefore& before, std::vector<MovedBody>& moved) {
     moved.assign(bodies.slots(), {});
@@ -49,7 +58,7 @@ bool findMoved(const BodyStorage& bodies, const PosesBefore& before, std::vector
         const bool same = bodies.position[i] == before.position[i] &&
                           bodies.orientation[i].coeffs() == before.orientation[i].coeffs();
         if (same) continue;
-        moved[i].way = (bodies.position[i] - before.position[i]).norm() + turnedWay(bodies, i, before.orientation[i]);
+        moved[i].way = waySince(bodies, i, {before.position[i], before.orientation[i]});
         any = true;
     }
     return any;
@@ -158,7 +167,14 @@ void measureCorrected(WorldState& world, const DetectionRange& range) {
 }
 
 void clampCompletion(WorldState& world, const DetectionRange& range, const PosesBefore& before) {
-    if (findMoved(world.bodies, before, world.data.moved)) takeBackPressed(world, range, before);
+    const BodyStorage& bodies = world.bodies;
+    std::vector<MovedBody>& moved = world.data.moved;
+    if (!findMoved(bodies, before, moved)) return;
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        // Contacts follow what the correction turned to first order only.
+        if (bodies.kind[i] == BodyKind::dynamic) moved[i].unsure = waySince(bodies, i, detectedPose(bodies, i));
+    }
+    takeBackPressed(world, range, before);
 }
 
 }  // namespace cairn
