@@ -104,6 +104,9 @@ struct IntegrationSettings {
 /// Threads. @source thesis §4
 struct ParallelSettings {
     std::int64_t threads = 1;  ///< threads that a step uses, 1 to 1024; results do not depend on it
+    /// All take part in every stage. Without it they do where their processors are free and where it was measured to be
+    /// faster.
+    bool always_helped = false;
 };
 
 /// What a step measures besides.

@@ -1362,10 +1362,13 @@ class IntegrationSettings(_Record):
 class ParallelSettings(_Record):
     """Threads; results do not depend on them."""
 
-    def __init__(self, threads: int = ...) -> None: ...
+    def __init__(self, threads: int = ..., always_helped: bool = ...) -> None: ...
     @property
     def threads(self) -> int:
         """threads of a step; results do not depend on it"""
+    @property
+    def always_helped(self) -> bool:
+        """all threads take part in every stage; without it where their processors are free and it is faster"""
 
 class DiagnosticsSettings(_Record):
     """What a step measures besides."""

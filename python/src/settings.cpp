@@ -58,6 +58,7 @@ void bindStages(py::module_& module) {
     using P = ParallelSettings;
     SettingRecord<P>(module, "ParallelSettings", "Threads; results do not depend on them.")
         .field("threads", &P::threads)
+        .field("always_helped", &P::always_helped)
         .finish();
     SettingRecord<DiagnosticsSettings>(module, "DiagnosticsSettings", "What a step measures besides.")
         .field("diagnostics", &DiagnosticsSettings::diagnostics)

@@ -138,10 +138,7 @@ double partFor(const PairOnWay& pair, double most, bool passes) {
 /// How far points of two bodies flew past each other at most [m].
 double flownPast(const WaysInput& input, const BodyPair& pair) {
     const BodyStorage& b = input.bodies;
-    const auto turned = [&](BodyIndex i) {
-        return input.ways[i].part > 0 ? turnedWay(b, i, input.ways[i].begin.orientation) : 0.0;
-    };
-    return (b.linear_step[pair.a] - b.linear_step[pair.b]).norm() + turned(pair.a) + turned(pair.b);
+    return (b.linear_step[pair.a] - b.linear_step[pair.b]).norm() + input.turned[pair.a] + input.turned[pair.b];
 }
 
 }  // namespace

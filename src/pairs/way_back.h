@@ -25,6 +25,7 @@ struct WaysInput {
     std::span<const Contact> contacts;
     const DetectionRange& range;
     std::span<const BodyWay> ways;          ///< [slots]
+    std::span<const double> turned;         ///< [slots] turnedWay() of each on its way [m]; for findTooDeep() only
     std::span<const std::uint8_t> jointed;  ///< [slots] 1 = does not go back; empty = none
     std::span<const std::uint8_t> stuck;    ///< [slots] 1 = does not go back, as findStuck() found
     std::span<const std::uint8_t> back;     ///< [slots] of those that went back since all were asked; empty = ask all

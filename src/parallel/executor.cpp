@@ -7,7 +7,9 @@ namespace cairn {
 
 Executor::Executor(int threads)
     : threads_(std::clamp(threads, 1, ThreadPool::most_threads)),
-      pool_(threads_ > 1 ? std::make_unique<ThreadPool>(threads_) : nullptr) {}
+      pool_(threads_ > 1 ? std::make_unique<ThreadPool>(threads_) : nullptr) {
+    if (pool_ != nullptr && pool_->present() > 1) probe_ = std::make_unique<ProcessorProbe>(pool_->present() - 1);
+}
 
 void Executor::forBlocks(std::size_t count, FunctionRef<void(std::size_t, std::size_t, int)> work,
                          std::size_t grain) const {

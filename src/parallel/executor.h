@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "parallel/function_ref.h"
+#include "parallel/processor_probe.h"
 #include "parallel/thread_pool.h"
 
 namespace cairn {
@@ -18,6 +19,8 @@ class Executor {
     explicit Executor(int threads = 1);
 
     int threads() const { return threads_; }
+    /// Whether the processors of the other threads are free for them, as far as is known; not if there are none.
+    bool othersAreFree() { return probe_ != nullptr && probe_->areFree(); }
     /// Whether the other threads take part in loops from now on; at first they do. No result depends on it.
     void setHelped(bool helped) { helped_ = helped; }
 
@@ -34,7 +37,8 @@ class Executor {
   private:
     int threads_;
     bool helped_ = true;
-    std::unique_ptr<ThreadPool> pool_;  ///< none for one thread
+    std::unique_ptr<ThreadPool> pool_;       ///< none for one thread
+    std::unique_ptr<ProcessorProbe> probe_;  ///< none where no other comes
 };
 
 }  // namespace cairn

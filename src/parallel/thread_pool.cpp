@@ -5,6 +5,8 @@
 #include <thread>
 #include <utility>
 
+#include "parallel/relax.h"
+
 #ifdef __linux__
 #include <sched.h>
 #endif
@@ -45,12 +47,6 @@ int processors() {
 #endif
     const unsigned known = std::thread::hardware_concurrency();
     return known == 0 ? ThreadPool::most_threads : static_cast<int>(known);
-}
-
-void relax() {
-#if defined(__x86_64__) || defined(__i386__)
-    __builtin_ia32_pause();
-#endif
 }
 
 #ifdef _OPENMP

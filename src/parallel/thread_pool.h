@@ -27,6 +27,10 @@ class ThreadPool {
     ThreadPool(const ThreadPool&) = delete;
     ThreadPool& operator=(const ThreadPool&) = delete;
 
+    /// Threads that come, the caller's with them: no more than there are processors, they take the shares of the
+    /// others.
+    int present() const { return present_; }
+
     /// Runs work(share) once for each share in [0, shares) and returns when all have been done. If some throw, the
     /// exception of the lowest share is thrown at the end. @pre shares ≤ threads, not called by a share
     void run(int shares, FunctionRef<void(int)> work);
@@ -42,7 +46,7 @@ class ThreadPool {
     void publish(std::uint64_t job);
     void takeShare(std::uint64_t job, int share);
 
-    int present_;  ///< threads that come: no more than there are processors, they take the shares of the others
+    int present_;
     std::uint64_t round_ = 0;  ///< number of the last loop
     std::vector<Claim> claims_;
 

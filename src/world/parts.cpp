@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "batches/batch_motion.h"
 #include "body/roundness.h"
@@ -26,6 +25,9 @@ constexpr double most_bent = 0.03;
 /// sweeps leave 1.3 of it, and more is a sign that contacts were foreseen badly or that weights were not carried.
 constexpr double too_deep = 1.6;
 constexpr double deep_time = 0.5;
+
+/// What stays below so much of a limit is below it however it is rounded.
+constexpr double surely = 0.99;
 
 double stepLength(const WorldState& world, int units) {
     return units == step_units ? world.settings.timeStep() : world.settings.timeStep() * units / step_units;
@@ -50,18 +52,25 @@ Vec3 turningOf(const BodyStorage& bodies, BodyIndex i) {
     return w - w.dot(axis) * axis;
 }
 
-/// How long two bodies may fly before their contact is found anew [s].
-double timeOf(const BodyStorage& bodies, const Contact& contact, double step) {
+/// How long two bodies may fly before their contact is found anew, at most so long as all others may [s].
+double timeOf(const BodyStorage& bodies, const Contact& contact, double step, double time) {
     const double extent = 2 * std::min(bodies.r_min[contact.a], bodies.r_min[contact.b]);
-    double time = std::numeric_limits<double>::infinity();
-    if (contact.distance < -too_deep * contact.allowed_overlap) time = deep_time * step;
+    if (contact.distance < -too_deep * contact.allowed_overlap) time = std::min(time, deep_time * step);
+    const auto square = [](double x) { return x * x; };
     for (const BodyIndex i : {contact.a, contact.b}) {
+        // Most turn and pass much too slowly, and this is quickly told: w²·r·time²/2 against what may bend.
+        const double turning = bodies.w[i].squaredNorm() * square(time) / 2;
+        if (square(turning) * (contact.point - bodies.position[i]).squaredNorm() <
+            square(surely * most_bent * extent)) {
+            continue;
+        }
         const double bend = turningOf(bodies, i).squaredNorm() * (contact.point - bodies.position[i]).norm() / 2;
         if (bend > 0) time = std::min(time, std::sqrt(most_bent * extent / bend));
     }
+    const Vec3 velocity = bodies.v[contact.a] - bodies.v[contact.b];
+    if (velocity.squaredNorm() * square(time) < square(surely * most_passed * extent)) return time;
     // Along a plane all places are alike, but what bounces off it may meet what is behind.
     const auto isPlane = [&](BodyIndex i) { return std::holds_alternative<HalfSpace>(bodies.shape[i]); };
-    const Vec3 velocity = bodies.v[contact.a] - bodies.v[contact.b];
     const bool slides_alike = isPlane(contact.a) || isPlane(contact.b);
     if (slides_alike && contact.restitution == 0) return time;
     const double passing = slides_alike ? std::abs(contact.normal.dot(velocity)) : velocity.norm();
@@ -79,7 +88,7 @@ int wantedUnits(WorldState& world) {
         for (std::size_t i = begin; i < end; ++i) {
             const Contact& contact = world.data.contacts[i];
             if (isAtRest(bodies, contact.a) && isAtRest(bodies, contact.b)) continue;
-            least = std::min(least, timeOf(world.bodies, contact, step));
+            least = timeOf(world.bodies, contact, step, least);
         }
     });
     const double time = *std::ranges::min_element(shortest);

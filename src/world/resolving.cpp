@@ -201,10 +201,10 @@ void resolveAgain(WorldState& world, BodyState& bodies, std::span<const BatchVie
 }
 
 /// Resolves the surroundings of the contacts that were added or left closing. Bodies with joints take no part.
+/// @pre data.contacts_of
 void resolveFollowed(WorldState& world, BodyState& bodies) {
     StepData& data = world.data;
     applyPairLaws(world, bodies, data.added);
-    listContacts(world.bodies.kind, data.contacts, data.contacts_of);
     const auto leads = [&](const Contact& contact) {
         return contact.normal.dot(contact.impulse) > 0 && !hasBounced(contact, bodies, world.settings.resolution);
     };
@@ -241,33 +241,57 @@ void resolveLaunchedJoints(WorldState& world, BodyState& bodies) {
     for (const BatchView& view : data.launched_views) addJointImpulses(world, view.joints);
 }
 
+/// Whether the bodies of a contact would get too far into each other there.
+bool closesTooFar(const Contact& contact, const BodyState& bodies) {
+    if (areFixedOrAsleep(contact, bodies)) return false;
+    const double left = most_overlap * contact.allowed_overlap - std::max(0.0, -contact.distance);
+    return wayInto(contact, bodies) > std::max(least_way * contact.allowed_overlap, left);
+}
+
 /// Lists the contacts at which bodies would get too far into each other, in ascending order.
-void listClosing(WorldState& world, const BodyState& bodies, std::vector<std::uint32_t>& list) {
+void listClosing(WorldState& world, const BodyState& bodies) {
     StepData& data = world.data;
-    data.closing.resize(static_cast<std::size_t>(world.executor.threads()));
-    for (std::vector<std::uint32_t>& part : data.closing) part.clear();
+    data.closing_of.resize(static_cast<std::size_t>(world.executor.threads()));
+    for (std::vector<std::uint32_t>& part : data.closing_of) part.clear();
     world.executor.forBlocks(data.contacts.size(), [&](std::size_t begin, std::size_t end, int thread) {
-        std::vector<std::uint32_t>& part = data.closing[static_cast<std::size_t>(thread)];
+        std::vector<std::uint32_t>& part = data.closing_of[static_cast<std::size_t>(thread)];
         for (std::size_t i = begin; i < end; ++i) {
-            const Contact& contact = data.contacts[i];
-            if (areFixedOrAsleep(contact, bodies)) continue;
-            const double left = most_overlap * contact.allowed_overlap - std::max(0.0, -contact.distance);
-            if (!(wayInto(contact, bodies) > std::max(least_way * contact.allowed_overlap, left))) continue;
-            part.push_back(static_cast<std::uint32_t>(i));
+            if (closesTooFar(data.contacts[i], bodies)) part.push_back(static_cast<std::uint32_t>(i));
         }
     });
-    list.clear();
-    for (const std::vector<std::uint32_t>& part : data.closing) list.insert(list.end(), part.begin(), part.end());
-    std::ranges::sort(list);
+    data.closing.clear();
+    for (const std::vector<std::uint32_t>& part : data.closing_of) {
+        data.closing.insert(data.closing.end(), part.begin(), part.end());
+    }
+    std::ranges::sort(data.closing);
+}
+
+/// Likewise, where only the bodies of the surroundings have other velocities since the list was made.
+void updateClosing(WorldState& world, const BodyState& bodies) {
+    StepData& data = world.data;
+    data.asked.clear();
+    for (const BatchView& group : data.surroundings.groups()) {
+        for (const BodyIndex body : group.bodies) {
+            const auto of_body = data.contacts_of[body];
+            data.asked.insert(data.asked.end(), of_body.begin(), of_body.end());
+        }
+    }
+    std::ranges::sort(data.asked);
+    data.asked.erase(std::unique(data.asked.begin(), data.asked.end()), data.asked.end());
+    std::erase_if(data.closing, [&](std::uint32_t i) { return std::ranges::binary_search(data.asked, i); });
+    const auto others = static_cast<std::ptrdiff_t>(data.closing.size());
+    std::ranges::copy_if(data.asked, std::back_inserter(data.closing),
+                         [&](std::uint32_t i) { return closesTooFar(data.contacts[i], bodies); });
+    std::inplace_merge(data.closing.begin(), data.closing.begin() + others, data.closing.end());
 }
 
 /// Finds the contacts that the resolution left closing, but those that were added since and those that it is no use to
-/// go on with: what presses a body between two that nothing can stop has no solution.
+/// go on with: what presses a body between two that nothing can stop has no solution. @pre data.closing
 void findUnresolved(WorldState& world, const BodyState& bodies) {
     StepData& data = world.data;
-    listClosing(world, bodies, data.unresolved);
-    std::erase_if(data.unresolved, [&](std::uint32_t i) {
-        return std::ranges::binary_search(data.added, i) || hasJoint(data, data.contacts[i]);
+    data.unresolved.clear();
+    std::ranges::copy_if(data.closing, std::back_inserter(data.unresolved), [&](std::uint32_t i) {
+        return !std::ranges::binary_search(data.added, i) && !hasJoint(data, data.contacts[i]);
     });
     data.left_before.swap(data.left_closing);
     data.left_closing.clear();
@@ -301,8 +325,16 @@ bool followStruck(WorldState& world, BodyState& bodies, const PairsInput& pairs)
     // Whoever went back would get as deep again by what was foreseen of it.
     std::span<const std::uint8_t> stopped = data.stopped;
     for (int n = 0; n < most_follows; ++n) {
+        const std::size_t known = data.contacts.size();
         data.pairs.followStruck(pairs, data.fastest, stopped, data.contacts, data.added);
         stopped = {};
+        const bool grown = data.contacts.size() > known;
+        if (grown) listContacts(world.bodies.kind, data.contacts, data.contacts_of);
+        if (grown || n == 0) {
+            listClosing(world, bodies);
+        } else {
+            updateClosing(world, bodies);
+        }
         findUnresolved(world, bodies);
         if (data.added.empty() && data.unresolved.empty()) break;
         any = any || !data.added.empty();

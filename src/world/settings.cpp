@@ -140,6 +140,9 @@ const std::vector<SettingField>& settingTable() {
             "1 = never"),
         plain<&S::parallel, &P::threads>("threads", "parallel", "", 1, 1024,
                                          "threads of a step; results do not depend on it"),
+        plain<&S::parallel, &P::always_helped>(
+            "always_helped", "parallel", "", 0, 1,
+            "all threads take part in every stage; without it where their processors are free and it is faster"),
         plain<&S::diagnostics, &DiagnosticsSettings::diagnostics>(
             "diagnostics", "diagnostics", "", 0, 1, "every step measures momentum, energy accounts and residuals"),
     };

@@ -33,12 +33,14 @@ template <class Work>
 void timed(WorldState& world, Stage stage, const Work& work) {
     const auto index = static_cast<std::size_t>(stage);
     HelpChoice& help = world.help[index];
-    world.executor.setHelped(help.next());
+    const bool always = world.settings.parallel.always_helped;
+    const bool measured = !always && world.executor.othersAreFree();
+    world.executor.setHelped(always || (measured && help.next()));
     const auto begin = std::chrono::steady_clock::now();
     work();
     const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - begin;
     world.statistics.stage_ms[index] += passed.count();
-    help.record(passed.count());
+    if (measured) help.record(passed.count());
 }
 
 void measureIfAsked(WorldState& world, Measured point) {

@@ -109,6 +109,7 @@ struct StepData {
     std::vector<Sensed> sensed;         ///< detection: by sensor and body
     std::vector<double> fastest_of;     ///< detection: [threads] kept memory
     std::vector<std::vector<TooDeep>> too_deep;  ///< detection: [threads] kept memory
+    std::vector<double> turned;                  ///< detection: [slots] how far surfaces turned [m]
     std::vector<std::uint8_t> stuck;             ///< detection: [slots] 1 = began deep in others
     std::vector<double> go_back_to;              ///< detection: [slots] kept memory
     std::vector<MovedBody> moved;                ///< correction, completion: [slots]
@@ -131,18 +132,20 @@ struct StepData {
     ResolutionCounts resolution_counts;               ///< resolution
     std::vector<std::uint32_t> added;                 ///< resolution: contacts that were added, ascending
     std::vector<std::uint32_t> unresolved;            ///< resolution: those that it left closing, ascending
-    std::vector<std::vector<std::uint32_t>> closing;  ///< resolution: [threads] kept memory
-    std::vector<LeftClosing> left_closing;            ///< resolution: by pair
-    std::vector<LeftClosing> left_before;             ///< resolution: the same, of the round before
-    std::vector<std::uint32_t> seeds;                 ///< resolution: all of both, ascending
-    Surroundings surroundings;                        ///< resolution: of the seeds
-    std::vector<FollowedGroup> followed;              ///< resolution: the same, group after group
-    std::vector<BodyMotion> motions;                  ///< resolution: of their bodies before it went on
-    std::vector<BatchView> gained;                    ///< resolution: groups that are resolved otherwise
-    std::vector<Contact> resolved;                    ///< resolution: their contacts before it went on
-    std::vector<std::uint32_t> launched;              ///< positions: batches of launched jointed bodies, ascending
-    std::vector<BatchView> launched_views;            ///< positions: the same
-    MeasuredData measured;                            ///< every stage: with the setting diagnostics only
+    std::vector<std::uint32_t> closing;  ///< resolution: those at which bodies would get too far, ascending
+    std::vector<std::vector<std::uint32_t>> closing_of;  ///< resolution: [threads] kept memory
+    std::vector<std::uint32_t> asked;                    ///< resolution: kept memory
+    std::vector<LeftClosing> left_closing;               ///< resolution: by pair
+    std::vector<LeftClosing> left_before;                ///< resolution: the same, of the round before
+    std::vector<std::uint32_t> seeds;                    ///< resolution: all of both, ascending
+    Surroundings surroundings;                           ///< resolution: of the seeds
+    std::vector<FollowedGroup> followed;                 ///< resolution: the same, group after group
+    std::vector<BodyMotion> motions;                     ///< resolution: of their bodies before it went on
+    std::vector<BatchView> gained;                       ///< resolution: groups that are resolved otherwise
+    std::vector<Contact> resolved;                       ///< resolution: their contacts before it went on
+    std::vector<std::uint32_t> launched;                 ///< positions: batches of launched jointed bodies, ascending
+    std::vector<BatchView> launched_views;               ///< positions: the same
+    MeasuredData measured;                               ///< every stage: with the setting diagnostics only
     std::vector<std::uint32_t> generation;  ///< output: [slots] generations of the bodies that the contacts name
 };
 

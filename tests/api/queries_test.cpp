@@ -19,7 +19,7 @@ using testing::Random;
 /// Bodies of every kind in a small space, some removed again, and two half-spaces.
 World crowd(std::uint64_t seed, int count, int threads = 1) {
     Settings settings = Settings::preset(Preset::performance);
-    settings.parallel.threads = threads;
+    settings.parallel = {threads, true};
     World world(settings);
     const MaterialId stone = world.addMaterial({"stone", 1000});
     Random random(seed);

@@ -45,7 +45,7 @@ TEST(PositionSweeps, GiveTheSameStatesOnAnyNumberOfThreads) {
     Settings settings = settingsFor(scene);
     settings.correction.correction = CorrectionKind::position_sweeps;
     SceneRun one(scene, settings);
-    settings.parallel.threads = 3;
+    settings.parallel = {3, true};
     SceneRun three(scene, settings);
     std::int64_t displaced = 0;
     for (int i = 0; i < 360; ++i) {

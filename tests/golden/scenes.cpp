@@ -106,7 +106,7 @@ Settings settingsOf(const Scene& scene, Kind kind, std::int64_t threads) {
         overrides.preset = kind == Kind::accuracy ? Preset::accuracy : Preset::performance;
         settings = settingsFor(scene, overrides);
     }
-    settings.parallel.threads = threads;
+    settings.parallel = {threads, true};
     return settings;
 }
 

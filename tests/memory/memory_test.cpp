@@ -78,7 +78,7 @@ TEST_P(SteadyStep, TakesNothingFromTheHeap) {
     const Scene scene = builtInScene("wall:10");
     Settings settings = settingsFor(scene);
     settings.resolution.resolution = GetParam().resolution;
-    settings.parallel.threads = GetParam().threads;
+    settings.parallel = {GetParam().threads, true};
     settings.sleep.sleeping = false;
     SceneRun run(scene, settings);
     run.world().setEventLevel(GetParam().events);

@@ -47,7 +47,7 @@ TEST(AcceleratedSweeps, AreTheSameOnAnyNumberOfThreads) {
     const Scene scene = builtInScene("cage384");
     Settings settings = accelerated(scene);
     SceneRun one(scene, settings);
-    settings.parallel.threads = 3;
+    settings.parallel = {3, true};
     SceneRun three(scene, settings);
     for (int i = 0; i < 480; ++i) {
         one.step();

@@ -402,7 +402,7 @@ class JointsOf : public ::testing::TestWithParam<ResolutionKind> {
     Settings settings(std::int64_t threads = 1) const {
         Settings result = Settings::preset(Preset::performance);
         result.resolution.resolution = GetParam();
-        result.parallel.threads = threads;
+        result.parallel = {threads, true};
         return result;
     }
 };

@@ -296,7 +296,7 @@ TEST(Motion, AWallPressesWithTheForceOfItsMotor) {
 /// A heap on a shaken table with a belt and a sensor. @return the hash of every step, and whom the sensor held
 std::pair<std::vector<std::uint64_t>, std::vector<Sensed>> shakenHeap(std::int64_t threads) {
     Settings settings = Settings::preset(Preset::performance);
-    settings.parallel.threads = threads;
+    settings.parallel = {threads, true};
     MovedTable t(settings);
     t.world.addBody({.shape = Box{{1, 4, 0.2}},
                      .material = t.stone,

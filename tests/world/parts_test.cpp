@@ -189,7 +189,7 @@ TEST(DividedSteps, ThreadsAndSnapshotsChangeNoBit) {
     Hall threaded;
     addPlates(threaded.world);
     Settings settings = threaded.world.settings();
-    settings.parallel.threads = 3;
+    settings.parallel = {3, true};
     threaded.world.setSettings(settings);
     for (int i = 0; i < 20; ++i) {
         hall.world.step();

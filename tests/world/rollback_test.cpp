@@ -105,7 +105,7 @@ std::vector<Call> everyCall() {
          [](Yard& y) {
              Settings s = y.world.settings();
              s.steps_per_second = 300;
-             s.parallel.threads = 2;
+             s.parallel = {2, true};
              s.resolution.resolution = ResolutionKind::sweep;
              s.correction.correction = CorrectionKind::none;
              y.world.setSettings(s);

@@ -72,7 +72,7 @@ class Pile {
 World copyWithThreads(const Bytes& snapshot, std::int64_t threads) {
     World copy = World::restore(snapshot);
     Settings settings = copy.settings();
-    settings.parallel.threads = threads;
+    settings.parallel = {threads, true};
     copy.setSettings(settings);
     return copy;
 }
