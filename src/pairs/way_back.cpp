@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "body/roundness.h"
@@ -27,6 +28,9 @@ constexpr double rounding = 1e-6;
 /// The part is found when the overlap then is less than the largest by this part of that, or after so many rounds.
 constexpr double part_tolerance = 0.05;
 constexpr int most_rounds = 8;
+
+/// What stays below so much of a limit is below it however it is rounded.
+constexpr double surely = 0.99;
 
 /// Fewest pairs worth a thread of their own: most are not asked.
 constexpr std::size_t asked_grain = 512;
@@ -203,14 +207,27 @@ void findStuck(const WaysInput& input, std::vector<std::uint8_t>& stuck) {
     }
 }
 
-void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& found) {
+bool mayHavePassed(const WaysInput& input) {
+    const BodyStorage& b = input.bodies;
+    double smallest = std::numeric_limits<double>::infinity();
+    double farthest = 0;
+    for (BodyIndex i = 0; i < b.slots(); ++i) {
+        if (b.kind[i] == BodyKind::hole) continue;
+        smallest = std::min(smallest, b.r_min[i]);
+        farthest = std::max(farthest, b.linear_step[i].norm() + input.turned[i]);
+    }
+    return 2 * farthest > surely * smallest;
+}
+
+void findTooDeep(const WaysInput& input, bool far, std::vector<std::vector<TooDeep>>& found) {
     const BodyStorage& b = input.bodies;
     forPairs(input, found, [&](const ContactPair& pair, std::vector<TooDeep>& part) {
+        if (!far && !pair.touches()) return;
         const double r_min = std::min(b.r_min[pair.a], b.r_min[pair.b]);
         const double most = most_overlap * input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
         const auto isDeep = [&](const Contact& contact) { return contact.distance < -most; };
         const bool deep = std::ranges::any_of(contactsOf(input, pair), isDeep);
-        const bool fast = flownPast(input, pair) > r_min;
+        const bool fast = far && flownPast(input, pair) > r_min;
         if ((!deep && !fast) || !mayGoBack(input, pair)) return;
         const PairOnWay on_way(input, pair);
         const double flown = partFor(on_way, most, fast);

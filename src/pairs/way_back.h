@@ -45,8 +45,12 @@ double turnedWay(const BodyStorage& bodies, BodyIndex i, const Quat& before);
 bool mayGoBack(const WaysInput& input, BodyIndex i);
 
 /// Finds the pairs whose bodies are deeper in each other than they may be in a fall and were where they began to fly,
-/// and those of which one flew through the other. @param found out: by thread, in the order of the pairs
-void findTooDeep(const WaysInput& input, std::vector<std::vector<TooDeep>>& found);
+/// and those of which one flew through the other. @param far whether any flew that far, mayHavePassed()
+/// @param found out: by thread, in the order of the pairs
+void findTooDeep(const WaysInput& input, bool far, std::vector<std::vector<TooDeep>>& found);
+
+/// Whether points of any two bodies may have flown past each other by more than the inner radius of one of them.
+bool mayHavePassed(const WaysInput& input);
 
 /// A body that was moved without flying, as by the correction.
 struct MovedBody {

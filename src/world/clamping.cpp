@@ -117,14 +117,15 @@ bool takeBackFlown(WorldState& world, const PairsInput& pairs) {
     };
     findTurned(world.bodies, way, {}, world.executor, data.turned);
     // In most steps nobody goes back, and then it is all the same who could not.
-    findTooDeep(inputOf({}, {}), data.too_deep);
+    const bool far = mayHavePassed(inputOf({}, {}));
+    findTooDeep(inputOf({}, {}), far, data.too_deep);
     if (!findPlaces(data, inputOf({}, {}), 0)) return false;
     findStuck(inputOf({}, {}), data.stuck);
     data.stopped.assign(world.bodies.slots(), 0);
     std::span<const std::uint8_t> back;
     for (int round = 0; round < most_rounds; ++round) {
         const WaysInput input = inputOf(data.stuck, back);
-        findTooDeep(input, data.too_deep);
+        findTooDeep(input, far, data.too_deep);
         if (!findPlaces(data, input, round)) break;
         data.back.assign(world.bodies.slots(), 0);
         for (BodyIndex i = 0; i < world.bodies.slots(); ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "batches/batch_motion.h"
 #include "body/roundness.h"
@@ -20,11 +21,6 @@ constexpr double most_passed = 0.5;
 /// What is fixed to a body where it touches may leave the straight way, since it turns, by this part of that extent:
 /// the bounds of what bodies may overlap at rest and in a fall are 0.02 and 0.1 of it.
 constexpr double most_bent = 0.03;
-
-/// Bodies that overlap by more than this multiple of what they may are corrected so many times in a step: position
-/// sweeps leave 1.3 of it, and more is a sign that contacts were foreseen badly or that weights were not carried.
-constexpr double too_deep = 1.6;
-constexpr double deep_time = 0.5;
 
 /// What stays below so much of a limit is below it however it is rounded.
 constexpr double surely = 0.99;
@@ -53,9 +49,8 @@ Vec3 turningOf(const BodyStorage& bodies, BodyIndex i) {
 }
 
 /// How long two bodies may fly before their contact is found anew, at most so long as all others may [s].
-double timeOf(const BodyStorage& bodies, const Contact& contact, double step, double time) {
+double timeOf(const BodyStorage& bodies, const Contact& contact, double time) {
     const double extent = 2 * std::min(bodies.r_min[contact.a], bodies.r_min[contact.b]);
-    if (contact.distance < -too_deep * contact.allowed_overlap) time = std::min(time, deep_time * step);
     const auto square = [](double x) { return x * x; };
     for (const BodyIndex i : {contact.a, contact.b}) {
         // Most turn and pass much too slowly, and this is quickly told: w²·r·time²/2 against what may bend.
@@ -77,18 +72,38 @@ double timeOf(const BodyStorage& bodies, const Contact& contact, double step, do
     return passing > 0 ? std::min(time, most_passed * extent / passing) : time;
 }
 
+/// Whether bodies move so little in a step that no two of them, wherever they touch, ask for a shorter part. Most steps
+/// are so, and there are fewer bodies than contacts.
+bool allMoveLittle(const BodyStorage& bodies, double step) {
+    double smallest = std::numeric_limits<double>::infinity();
+    double way = 0;
+    double bend = 0;
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        if (bodies.kind[i] == BodyKind::hole) continue;
+        smallest = std::min(smallest, bodies.r_min[i]);
+        way = std::max(way, bodies.v[i].norm() * step);
+        if (bodies.w[i].isZero(0)) continue;
+        const double turn = bodies.w[i].norm() * step;
+        way = std::max(way, bodies.v[i].norm() * step + turn * bodies.r_max[i]);
+        // Contacts that are foreseen are off the body by no more than what others move.
+        bend = std::max(bend, turn * turn / 2 * bodies.r_max[i]);
+    }
+    return 2 * way <= surely * most_passed * 2 * smallest && 2 * bend <= surely * most_bent * 2 * smallest;
+}
+
 /// How long the next part may be, by the contacts there are and how their bodies move [units].
 int wantedUnits(WorldState& world) {
     const BodyState bodies = world.bodies.state();
     std::vector<double>& shortest = world.data.shortest_of;
     const double step = world.settings.timeStep();
+    if (allMoveLittle(world.bodies, step)) return leastOnAny(world, step_units);
     shortest.assign(static_cast<std::size_t>(world.executor.threads()), step);
     world.executor.forBlocks(world.data.contacts.size(), [&](std::size_t begin, std::size_t end, int thread) {
         double& least = shortest[static_cast<std::size_t>(thread)];
         for (std::size_t i = begin; i < end; ++i) {
             const Contact& contact = world.data.contacts[i];
             if (isAtRest(bodies, contact.a) && isAtRest(bodies, contact.b)) continue;
-            least = timeOf(world.bodies, contact, step, least);
+            least = timeOf(world.bodies, contact, least);
         }
     });
     const double time = *std::ranges::min_element(shortest);

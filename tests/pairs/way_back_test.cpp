@@ -56,7 +56,7 @@ struct TwoBalls {
             turned.push_back(turnedWay(bodies, i, ways[i].begin.orientation));
         }
         std::vector<std::vector<TooDeep>> found;
-        findTooDeep(input(), found);
+        findTooDeep(input(), mayHavePassed(input()), found);
         std::vector<TooDeep> all;
         for (const std::vector<TooDeep>& part : found) all.insert(all.end(), part.begin(), part.end());
         return all;
