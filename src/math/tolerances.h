@@ -11,4 +11,8 @@ inline constexpr double perpendicular_cosine = 1e-3;
 /// is normalised: rounding would decide on it.
 inline constexpr double tiny_part = 1e-11;
 
+/// What stays below so much of a limit is below it however both are rounded: where that is told in a short way, it need
+/// not be told in the exact one.
+inline constexpr double surely_below = 0.99;
+
 }  // namespace cairn

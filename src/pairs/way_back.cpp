@@ -7,6 +7,7 @@
 
 #include "body/roundness.h"
 #include "math/rotation.h"
+#include "math/tolerances.h"
 #include "narrow_phase/approach.h"
 
 namespace cairn {
@@ -28,9 +29,6 @@ constexpr double rounding = 1e-6;
 /// The part is found when the overlap then is less than the largest by this part of that, or after so many rounds.
 constexpr double part_tolerance = 0.05;
 constexpr int most_rounds = 8;
-
-/// What stays below so much of a limit is below it however it is rounded.
-constexpr double surely = 0.99;
 
 /// Fewest pairs worth a thread of their own: most are not asked.
 constexpr std::size_t asked_grain = 512;
@@ -140,9 +138,8 @@ double partFor(const PairOnWay& pair, double most, bool passes) {
 }
 
 /// How far points of two bodies flew past each other at most [m].
-double flownPast(const WaysInput& input, const BodyPair& pair) {
-    const BodyStorage& b = input.bodies;
-    return (b.linear_step[pair.a] - b.linear_step[pair.b]).norm() + input.turned[pair.a] + input.turned[pair.b];
+double flownPast(const BodyStorage& b, const Flights& flights, const BodyPair& pair) {
+    return (b.linear_step[pair.a] - b.linear_step[pair.b]).norm() + flights.turned[pair.a] + flights.turned[pair.b];
 }
 
 }  // namespace
@@ -207,27 +204,36 @@ void findStuck(const WaysInput& input, std::vector<std::uint8_t>& stuck) {
     }
 }
 
-bool mayHavePassed(const WaysInput& input) {
+void measureFlights(const WaysInput& input, Flights& flights) {
     const BodyStorage& b = input.bodies;
+    flights.turned.resize(b.slots());
+    input.executor.forBlocks(b.slots(), [&](std::size_t begin, std::size_t end, int) {
+        for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
+            if (!input.back.empty() && input.back[i] == 0) continue;
+            const BodyWay& way = input.ways[i];
+            flights.turned[i] = way.part > 0 ? turnedWay(b, i, way.begin.orientation) : 0;
+        }
+    });
+    if (!input.back.empty()) return;
     double smallest = std::numeric_limits<double>::infinity();
     double farthest = 0;
     for (BodyIndex i = 0; i < b.slots(); ++i) {
         if (b.kind[i] == BodyKind::hole) continue;
         smallest = std::min(smallest, b.r_min[i]);
-        farthest = std::max(farthest, b.linear_step[i].norm() + input.turned[i]);
+        farthest = std::max(farthest, b.linear_step[i].norm() + flights.turned[i]);
     }
-    return 2 * farthest > surely * smallest;
+    flights.far = 2 * farthest > surely_below * smallest;
 }
 
-void findTooDeep(const WaysInput& input, bool far, std::vector<std::vector<TooDeep>>& found) {
+void findTooDeep(const WaysInput& input, const Flights& flights, std::vector<std::vector<TooDeep>>& found) {
     const BodyStorage& b = input.bodies;
     forPairs(input, found, [&](const ContactPair& pair, std::vector<TooDeep>& part) {
-        if (!far && !pair.touches()) return;
+        if (!flights.far && !pair.touches()) return;
         const double r_min = std::min(b.r_min[pair.a], b.r_min[pair.b]);
         const double most = most_overlap * input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
         const auto isDeep = [&](const Contact& contact) { return contact.distance < -most; };
         const bool deep = std::ranges::any_of(contactsOf(input, pair), isDeep);
-        const bool fast = far && flownPast(input, pair) > r_min;
+        const bool fast = flights.far && flownPast(b, flights, pair) > r_min;
         if ((!deep && !fast) || !mayGoBack(input, pair)) return;
         const PairOnWay on_way(input, pair);
         const double flown = partFor(on_way, most, fast);

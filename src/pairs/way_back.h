@@ -25,7 +25,6 @@ struct WaysInput {
     std::span<const Contact> contacts;
     const DetectionRange& range;
     std::span<const BodyWay> ways;          ///< [slots]
-    std::span<const double> turned;         ///< [slots] turnedWay() of each on its way [m]; for findTooDeep() only
     std::span<const std::uint8_t> jointed;  ///< [slots] 1 = does not go back; empty = none
     std::span<const std::uint8_t> stuck;    ///< [slots] 1 = does not go back, as findStuck() found
     std::span<const std::uint8_t> back;     ///< [slots] of those that went back since all were asked; empty = ask all
@@ -44,13 +43,18 @@ double turnedWay(const BodyStorage& bodies, BodyIndex i, const Quat& before);
 /// Whether a body may go back.
 bool mayGoBack(const WaysInput& input, BodyIndex i);
 
-/// Finds the pairs whose bodies are deeper in each other than they may be in a fall and were where they began to fly,
-/// and those of which one flew through the other. @param far whether any flew that far, mayHavePassed()
-/// @param found out: by thread, in the order of the pairs
-void findTooDeep(const WaysInput& input, bool far, std::vector<std::vector<TooDeep>>& found);
+/// How far bodies flew.
+struct Flights {
+    std::vector<double> turned;  ///< [slots] turnedWay() of each [m]
+    bool far = false;  ///< points of two bodies may have flown past each other by more than the inner radius of one
+};
 
-/// Whether points of any two bodies may have flown past each other by more than the inner radius of one of them.
-bool mayHavePassed(const WaysInput& input);
+/// Measures the flights of those that are asked; whoever went back flew no farther than before.
+void measureFlights(const WaysInput& input, Flights& flights);
+
+/// Finds the pairs whose bodies are deeper in each other than they may be in a fall and were where they began to fly,
+/// and those of which one flew through the other. @param found out: by thread, in the order of the pairs
+void findTooDeep(const WaysInput& input, const Flights& flights, std::vector<std::vector<TooDeep>>& found);
 
 /// A body that was moved without flying, as by the correction.
 struct MovedBody {

@@ -49,19 +49,6 @@ Pose detectedPose(const BodyStorage& bodies, BodyIndex i) {
     return {bodies.detected_position[i], bodies.detected_orientation[i]};
 }
 
-/// Finds how far the surfaces of bodies turned on their ways. @param back [slots] of those that went back since the
-/// last call; empty = ask all
-void findTurned(const BodyStorage& bodies, std::span<const BodyWay> way, std::span<const std::uint8_t> back,
-                const Executor& executor, std::vector<double>& turned) {
-    turned.resize(bodies.slots());
-    executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
-        for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
-            if (!back.empty() && back[i] == 0) continue;
-            turned[i] = way[i].part > 0 ? turnedWay(bodies, i, way[i].begin.orientation) : 0;
-        }
-    });
-}
-
 /// Notes how far surfaces of bodies went since they were somewhere else. @return whether any did
 bool findMoved(const BodyStorage& bodies, const PosesBefore& before, std::vector<MovedBody>& moved) {
     moved.assign(bodies.slots(), {});
@@ -89,7 +76,7 @@ void takeBackPressed(WorldState& world, const DetectionRange& range, const Poses
     }
     std::span<const std::uint8_t> back;
     for (int round = 0; round < most_rounds; ++round) {
-        const WaysInput input{bodies, data.pairs.pairs(), data.contacts, range, way, {}, {}, {}, back, world.executor};
+        const WaysInput input{bodies, data.pairs.pairs(), data.contacts, range, way, {}, {}, back, world.executor};
         findPressed(input, data.moved, data.too_deep);
         if (!findPlaces(data, input, round)) return;
         data.back.assign(bodies.slots(), 0);
@@ -112,20 +99,19 @@ bool takeBackFlown(WorldState& world, const PairsInput& pairs) {
     std::vector<BodyWay>& way = data.before.way;
     const Vec3 acceleration = world.gravity + world.global_acceleration;
     const auto inputOf = [&](std::span<const std::uint8_t> stuck, std::span<const std::uint8_t> back) -> WaysInput {
-        return {world.bodies, data.pairs.pairs(), data.contacts, pairs.range, way,
-                data.turned,  data.jointed,       stuck,         back,        world.executor};
+        return {world.bodies, data.pairs.pairs(), data.contacts, pairs.range, way, data.jointed, stuck,
+                back,         world.executor};
     };
-    findTurned(world.bodies, way, {}, world.executor, data.turned);
+    measureFlights(inputOf({}, {}), data.flights);
     // In most steps nobody goes back, and then it is all the same who could not.
-    const bool far = mayHavePassed(inputOf({}, {}));
-    findTooDeep(inputOf({}, {}), far, data.too_deep);
+    findTooDeep(inputOf({}, {}), data.flights, data.too_deep);
     if (!findPlaces(data, inputOf({}, {}), 0)) return false;
     findStuck(inputOf({}, {}), data.stuck);
     data.stopped.assign(world.bodies.slots(), 0);
     std::span<const std::uint8_t> back;
     for (int round = 0; round < most_rounds; ++round) {
         const WaysInput input = inputOf(data.stuck, back);
-        findTooDeep(input, far, data.too_deep);
+        findTooDeep(input, data.flights, data.too_deep);
         if (!findPlaces(data, input, round)) break;
         data.back.assign(world.bodies.slots(), 0);
         for (BodyIndex i = 0; i < world.bodies.slots(); ++i) {
@@ -135,7 +121,7 @@ bool takeBackFlown(WorldState& world, const PairsInput& pairs) {
             data.stopped[i] = 1;
         }
         back = data.back;
-        findTurned(world.bodies, way, back, world.executor, data.turned);
+        measureFlights(inputOf(data.stuck, back), data.flights);
         data.pairs.detectBack(pairs, back, data.contacts);
     }
     return true;
@@ -177,7 +163,7 @@ bool clampCorrection(WorldState& world, const DetectionRange& range) {
 
 void measureCorrected(WorldState& world, const DetectionRange& range) {
     StepData& data = world.data;
-    const WaysInput input{world.bodies, data.pairs.pairs(), data.contacts, range, data.moved_way, {}, {}, {},
+    const WaysInput input{world.bodies, data.pairs.pairs(), data.contacts, range, data.moved_way, {}, {},
                           {},           world.executor};
     limitToDepths(input, data.moved, data.contacts);
 }

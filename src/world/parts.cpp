@@ -7,6 +7,7 @@
 
 #include "batches/batch_motion.h"
 #include "body/roundness.h"
+#include "math/tolerances.h"
 #include "world/division.h"
 #include "world/joints.h"
 
@@ -21,9 +22,6 @@ constexpr double most_passed = 0.5;
 /// What is fixed to a body where it touches may leave the straight way, since it turns, by this part of that extent:
 /// the bounds of what bodies may overlap at rest and in a fall are 0.02 and 0.1 of it.
 constexpr double most_bent = 0.03;
-
-/// What stays below so much of a limit is below it however it is rounded.
-constexpr double surely = 0.99;
 
 double stepLength(const WorldState& world, int units) {
     return units == step_units ? world.settings.timeStep() : world.settings.timeStep() * units / step_units;
@@ -56,14 +54,14 @@ double timeOf(const BodyStorage& bodies, const Contact& contact, double time) {
         // Most turn and pass much too slowly, and this is quickly told: w²·r·time²/2 against what may bend.
         const double turning = bodies.w[i].squaredNorm() * square(time) / 2;
         if (square(turning) * (contact.point - bodies.position[i]).squaredNorm() <
-            square(surely * most_bent * extent)) {
+            square(surely_below * most_bent * extent)) {
             continue;
         }
         const double bend = turningOf(bodies, i).squaredNorm() * (contact.point - bodies.position[i]).norm() / 2;
         if (bend > 0) time = std::min(time, std::sqrt(most_bent * extent / bend));
     }
     const Vec3 velocity = bodies.v[contact.a] - bodies.v[contact.b];
-    if (velocity.squaredNorm() * square(time) < square(surely * most_passed * extent)) return time;
+    if (velocity.squaredNorm() * square(time) < square(surely_below * most_passed * extent)) return time;
     // Along a plane all places are alike, but what bounces off it may meet what is behind.
     const auto isPlane = [&](BodyIndex i) { return std::holds_alternative<HalfSpace>(bodies.shape[i]); };
     const bool slides_alike = isPlane(contact.a) || isPlane(contact.b);
@@ -81,14 +79,12 @@ bool allMoveLittle(const BodyStorage& bodies, double step) {
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (bodies.kind[i] == BodyKind::hole) continue;
         smallest = std::min(smallest, bodies.r_min[i]);
-        way = std::max(way, bodies.v[i].norm() * step);
-        if (bodies.w[i].isZero(0)) continue;
-        const double turn = bodies.w[i].norm() * step;
-        way = std::max(way, bodies.v[i].norm() * step + turn * bodies.r_max[i]);
-        // Contacts that are foreseen are off the body by no more than what others move.
-        bend = std::max(bend, turn * turn / 2 * bodies.r_max[i]);
+        const double turn = bodies.w[i].isZero(0) ? 0 : step * bodies.w[i].norm() * bodies.r_max[i];
+        way = std::max(way, step * bodies.v[i].norm() + turn);
+        if (turn > 0) bend = std::max(bend, turn * turn / (2 * bodies.r_max[i]));
     }
-    return 2 * way <= surely * most_passed * 2 * smallest && 2 * bend <= surely * most_bent * 2 * smallest;
+    // Contacts that are foreseen are off a body by no more than what others move: by less than its outer radius.
+    return 2 * way <= surely_below * most_passed * 2 * smallest && 2 * bend <= surely_below * most_bent * 2 * smallest;
 }
 
 /// How long the next part may be, by the contacts there are and how their bodies move [units].

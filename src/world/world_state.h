@@ -109,7 +109,7 @@ struct StepData {
     std::vector<Sensed> sensed;         ///< detection: by sensor and body
     std::vector<double> fastest_of;     ///< detection: [threads] kept memory
     std::vector<std::vector<TooDeep>> too_deep;  ///< detection: [threads] kept memory
-    std::vector<double> turned;                  ///< detection: [slots] how far surfaces turned [m]
+    Flights flights;                             ///< detection: how far bodies flew
     std::vector<std::uint8_t> stuck;             ///< detection: [slots] 1 = began deep in others
     std::vector<double> go_back_to;              ///< detection: [slots] kept memory
     std::vector<MovedBody> moved;                ///< correction, completion: [slots]

@@ -27,7 +27,6 @@ struct TwoBalls {
     PairTable pairs;
     std::vector<Contact> contacts;
     std::vector<BodyWay> ways;
-    std::vector<double> turned;
     std::vector<std::uint8_t> jointed;
 
     TwoBalls() {
@@ -48,15 +47,13 @@ struct TwoBalls {
         ways[i].begin.position = Vec3(begun, 0, 0);
         bodies.linear_step[i] = Vec3(now - begun, 0, 0);
     }
-    WaysInput input() { return {bodies, pairs.pairs(), contacts, range, ways, turned, jointed, {}, {}, executor}; }
+    WaysInput input() { return {bodies, pairs.pairs(), contacts, range, ways, jointed, {}, {}, executor}; }
     std::vector<TooDeep> find() {
         pairs.detect({bodies, materials, broad_phase, {}, range, executor}, contacts);
-        turned.clear();
-        for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-            turned.push_back(turnedWay(bodies, i, ways[i].begin.orientation));
-        }
+        Flights flights;
+        measureFlights(input(), flights);
         std::vector<std::vector<TooDeep>> found;
-        findTooDeep(input(), mayHavePassed(input()), found);
+        findTooDeep(input(), flights, found);
         std::vector<TooDeep> all;
         for (const std::vector<TooDeep>& part : found) all.insert(all.end(), part.begin(), part.end());
         return all;

@@ -25,9 +25,7 @@ TEST(ProcessorProbe, KnowsNothingAtFirst) {
 }
 
 TEST(ProcessorProbe, EndsWhileItIsAsking) {
-    const Clock::time_point begin = Clock::now();
-    for (int i = 0; i < 20; ++i) ProcessorProbe(3).areFree();
-    EXPECT_LT(Clock::now() - begin, std::chrono::seconds(10));
+    for (int i = 0; i < 20; ++i) EXPECT_FALSE(ProcessorProbe(3).areFree());
 }
 
 #ifdef __linux__
