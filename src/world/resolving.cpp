@@ -371,6 +371,9 @@ void resolveContacts(WorldState& world, BodyState& bodies, const PairsInput& pai
 void findBounced(const WorldState& world, const BodyState& bodies, VelocitiesBefore& before) {
     const ResolutionSettings& settings = world.settings.resolution;
     const double slowest = settings.restitution_threshold * settings.restitution_threshold;
+    BodyState earlier = bodies;
+    earlier.v = before.forced_v;
+    earlier.w = before.w;
     for (const Contact& contact : world.data.contacts) {
         if (areFixedOrAsleep(contact, bodies)) continue;
         const double kept = contact.restitution * contact.restitution;
@@ -379,8 +382,13 @@ void findBounced(const WorldState& world, const BodyState& bodies, VelocitiesBef
             // An impact with the speed s leaves e·s and loses (1 − e²)s². Most contacts lose enough however slow.
             const double worth = kept * before.forced[i] * before.forced[i];
             if ((1 - kept) * slowest >= worth) continue;
-            const double parting = normalVelocity(contact, bodies);
-            if (hasBounced(contact, bodies, settings) && (1 - kept) * parting * parting < worth) before.bounced[i] = 1;
+            // Bodies that parted may close again, since a third one struck them later in the step.
+            const double closing = normalVelocity(contact, earlier);
+            const bool bounced =
+                hasBounced(contact, bodies, settings) ||
+                (contact.normal.dot(contact.impulse) > 0 && isImpact(contact, closing, settings.restitution_threshold));
+            const double parting = std::max(normalVelocity(contact, bodies), -contact.restitution * closing);
+            if (bounced && (1 - kept) * parting * parting < worth) before.bounced[i] = 1;
         }
     }
 }
