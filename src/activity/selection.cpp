@@ -129,8 +129,7 @@ void Selection::beginPart(PartOfBatch& part) {
 bool Selection::widen() {
     forParts([&](PartOfBatch& part, Scratch& scratch) {
         if (!part.again) return;
-        findDisturbed(part, scratch);
-        part.again = !scratch.taken.empty();
+        part.again = part.holds && findDisturbed(part, scratch);
         if (!part.again) return;
         revert(part);
         takeAroundAlong(part, scratch.taken);
@@ -219,9 +218,13 @@ void Selection::select(PartOfBatch& part) {
     const BatchView& batch = batchOf(part);
     const std::span<const Contact> contacts = input_->contacts;
     part.again = true;
+    part.holds = false;
     part.bodies = part.contacts = part.joints = 0;
     for (const BodyIndex i : batch.bodies) {
-        if (isHeld(i)) continue;
+        if (isHeld(i)) {
+            part.holds = true;
+            continue;
+        }
         const std::size_t place = part.body_begin + part.bodies++;
         part_bodies_[place] = i;
         before_[place] = {bodies().v[i], bodies().w[i]};
@@ -258,8 +261,8 @@ void Selection::listChosen() {
     }
 }
 
-/// @param scratch out: taken are the disturbed bodies
-void Selection::findDisturbed(const PartOfBatch& part, Scratch& scratch) {
+/// @param scratch out: taken are the disturbed bodies @return whether there are any
+bool Selection::findDisturbed(const PartOfBatch& part, Scratch& scratch) {
     scratch.taken.clear();
     scratch.disturbances.clear();
     for (const std::uint32_t c : std::span(part_contacts_).subspan(part.contact_begin, part.contacts)) {
@@ -276,6 +279,7 @@ void Selection::findDisturbed(const PartOfBatch& part, Scratch& scratch) {
         if (isPush(v, w, d.squared_reach, input_->wake_speed)) scratch.taken.push_back(d.body);
         index_of_[d.body] = none;
     }
+    return !scratch.taken.empty();
 }
 
 void Selection::disturb(BodyIndex i, const Vec3& impulse, const Vec3& r, Scratch& scratch) {

@@ -73,6 +73,7 @@ class Selection {
         int reach = 1;       ///< how many contacts far the surroundings of the next disturbed body go
         bool again = false;  ///< to be resolved once more
         bool took_along = false;
+        bool holds = false;  ///< some of its bodies are held
     };
 
     /// What the contacts of a sleeping body push more than when it was awake last.
@@ -106,7 +107,7 @@ class Selection {
     void takeAroundAlong(PartOfBatch& part, std::vector<BodyIndex>& disturbed);
     void select(PartOfBatch& part);
     void listChosen();
-    void findDisturbed(const PartOfBatch& part, Scratch& scratch);
+    bool findDisturbed(const PartOfBatch& part, Scratch& scratch);
     void disturb(BodyIndex i, const Vec3& impulse, const Vec3& r, Scratch& scratch);
     void revert(const PartOfBatch& part);
     void wakePushed(const PartOfBatch& part);

@@ -49,18 +49,41 @@ namespace {
 /// The rotation vector of a body over a time is told from its orientations up to this angle [rad].
 constexpr double most_turned = 1;
 
-/// The squared motion (3.2.3) of a body, of its velocity or of where it went, whichever is less [m²/s²].
-double motionOf(const BodyState& bodies, const MotionState& state, BodyIndex i) {
-    const double by_velocity = squaredMotion(bodies.v[i], bodies.w[i], state.r_max[i]);
-    if (state.way.empty()) return by_velocity;
+/// What does not go anywhere on the mean may shake with up to this multiple of the speed with which bodies fall asleep:
+/// by what sweeps leave of what gravity gave.
+constexpr double most_shaking = 5;
+
+struct Velocities {
+    Vec3 v, w;
+};
+
+/// Those of a body, or those with which it went and what it gained since, whichever is less.
+Velocities velocitiesOf(const BodyState& bodies, const MotionState& state, BodyIndex i) {
+    const Velocities now{bodies.v[i], bodies.w[i]};
     const BodyWay& way = state.way[i];
     const double time = state.part_length;
-    if (!(way.w.norm() * time < most_turned)) return by_velocity;
+    if (!(way.w.norm() * time < most_turned)) return now;
     const Vec3 v = (bodies.position[i] - way.begin.position) / time;
     const Vec3 w = toRotationVector(bodies.orientation[i] * way.begin.orientation.conjugate()) / time;
-    const Vec3 gained_v = bodies.v[i] - way.v;
-    const Vec3 gained_w = bodies.w[i] - way.w;
-    return std::min(by_velocity, squaredMotion(v + gained_v, w + gained_w, state.r_max[i]));
+    const Velocities gone{v + (now.v - way.v), w + (now.w - way.w)};
+    const double r_max = state.r_max[i];
+    return squaredMotion(now.v, now.w, r_max) < squaredMotion(gone.v, gone.w, r_max) ? now : gone;
+}
+
+/// The squared motion (3.2.3) of a body [m²/s²]: of its velocity or, where it is known how bodies went, of the mean of
+/// that, unless it shakes. @param bias weight of the mean so far
+double motionOf(const BodyState& bodies, const MotionState& state, double bias, BodyIndex i) {
+    const double r_max = state.r_max[i];
+    if (state.way.empty()) return squaredMotion(bodies.v[i], bodies.w[i], r_max);
+    const auto [v, w] = velocitiesOf(bodies, state, i);
+    Vec3& mean_v = state.mean_v[i];
+    Vec3& mean_w = state.mean_w[i];
+    // What woke it is no part of a rest.
+    const bool woke = bodies.woken[i] != WakeReason::none;
+    mean_v = woke ? v : bias * mean_v + (1 - bias) * v;
+    mean_w = woke ? w : bias * mean_w + (1 - bias) * w;
+    const double shaking = squaredMotion(v, w, r_max) / (most_shaking * most_shaking);
+    return std::max(squaredMotion(mean_v, mean_w, r_max), shaking);
 }
 
 /// Whether a constant force is too weak to show within one step: such a body must stay awake.
@@ -103,7 +126,7 @@ void fallAsleep(const BodyState& bodies, const MotionState& state, const SleepSe
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
             if (bodies.isFixed(i) || bodies.asleep[i] != 0) continue;
             double& motion = state.motion[i];
-            motion = bias * motion + (1 - bias) * motionOf(bodies, state, i);
+            motion = bias * motion + (1 - bias) * motionOf(bodies, state, bias, i);
             if (!(motion < threshold)) {
                 motion = std::min(motion, limit);
                 continue;

@@ -38,6 +38,8 @@ struct MotionState {
     std::span<const std::uint8_t> together{};  ///< 1 = sleeps only with others; empty = none does
     std::span<const BodyWay> way{};            ///< since the beginning of the last part of the step; empty = unknown
     double part_length = 0;                    ///< [s]
+    /// Recency-weighted averages of the velocities [m/s, W], [rad/s, W]; where ways are known.
+    std::span<Vec3> mean_v{}, mean_w{};
 };
 
 /// How long a step is.
@@ -55,8 +57,9 @@ double motionBias(const StepLength& step);
 double initialMotion(const SleepSettings& settings);
 
 /// Algorithm 5 for every awake body. Who is held back by others or pushed back by the correction has a velocity and
-/// goes nowhere: where it is known how bodies went, only that and what their velocities gained since is motion. A body
-/// with a constant force too weak to show within one step stays awake, since (3.2.5) holds for every lasting force.
+/// goes nowhere: where it is known how bodies went, only that and what their velocities gained since is motion, and of
+/// that the mean, since what sweeps leave from step to step leads to and fro. A body with a constant force too weak to
+/// show within one step stays awake, since (3.2.5) holds for every lasting force.
 void fallAsleep(const BodyState& bodies, const MotionState& motion, const SleepSettings& settings,
                 const StepLength& step, const Executor& executor);
 

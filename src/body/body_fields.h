@@ -50,6 +50,7 @@ struct BodyArrays {
     FieldArray<std::uint8_t> asleep;                   ///< 1 = asleep
     FieldArray<std::uint8_t> held;                     ///< 1 = it hardly got anywhere on its last flight
     FieldArray<WakeReason> woken;                      ///< why it woke in this step
+    FieldArray<Vec3> mean_v, mean_w;    ///< recency-weighted averages of the velocities [m/s, W], [rad/s, W]
     FieldArray<double> motion;          ///< rwa: recency-weighted average of the squared motion [m²/s²] (3.2.4)
     FieldArray<std::int32_t> supports;  ///< contacts in the direction of gravity in the last step; −1 = unknown
     FieldArray<std::uint64_t> groups;   ///< bits of the groups that it is in
@@ -134,6 +135,8 @@ inline constexpr auto body_fields = std::tuple{
     BodyField{&BodyArrays::asleep, "asleep", "", Change::steps},
     BodyField{&BodyArrays::held, "held", "", Change::steps},
     BodyField{&BodyArrays::woken, "woken", "", Change::steps},
+    BodyField{&BodyArrays::mean_v, "mean_v", "m/s", Change::steps},
+    BodyField{&BodyArrays::mean_w, "mean_w", "rad/s", Change::steps},
     BodyField{&BodyArrays::motion, "motion", "m²/s²", Change::steps},
     BodyField{&BodyArrays::supports, "supports", "1", Change::steps, [] { return -1; }},
     BodyField{&BodyArrays::groups, "groups", "", Change::calls},

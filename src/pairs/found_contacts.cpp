@@ -58,7 +58,7 @@ void FoundContacts::clear() {
     grown.clear();
     tightened.clear();
     count = pair_begin = pair_end = 0;
-    others = false;
+    others = deep = false;
 }
 
 void FoundContacts::add(std::size_t from, std::size_t contacts, bool stays) {

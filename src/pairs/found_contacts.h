@@ -61,6 +61,7 @@ struct FoundContacts {
     std::size_t count = 0;                     ///< of all runs
     std::size_t pair_begin = 0, pair_end = 0;  ///< the pairs that the thread tests
     bool others = false;                       ///< one of these has more or fewer contacts than before
+    bool deep = false;                         ///< flights led bodies of one of these too deep into each other
 
     void clear();
     /// Appends contacts. @param from, contacts, stays as of Run

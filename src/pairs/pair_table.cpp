@@ -7,6 +7,7 @@
 #include "narrow_phase/narrow_phase.h"
 #include "pairs/same_point.h"
 #include "pairs/warm_start.h"
+#include "pairs/way_back.h"
 
 namespace cairn {
 
@@ -185,6 +186,10 @@ void PairTable::detectBack(const PairsInput& input, std::span<const std::uint8_t
     for (FoundContacts& part : parts_) part.clear();
     forParts(input.executor, [&](FoundContacts& part) { detectPairsBack(input, contacts, back, part); });
     join(input, contacts);
+}
+
+bool PairTable::foundDeep() const {
+    return std::ranges::any_of(parts_, [](const FoundContacts& part) { return part.deep; });
 }
 
 /// Makes the contacts of what the threads found, and notes where bodies were then.
@@ -385,6 +390,8 @@ void PairTable::detectPair(const PairsInput& input, std::span<const Contact> las
         const std::size_t begin = part.found.size();
         collidePair(input.bodies, pair, range_, {input.bodies, range_, pair, ahead_}, manifold, part.found);
         inheritImpulses(input.bodies, before, std::span(part.found).subspan(begin));
+        const auto isDeep = [](const FoundContact& c) { return c.distance < -most_overlap * c.allowed_overlap; };
+        part.deep = part.deep || std::ranges::any_of(std::span(part.found).subspan(begin), isDeep);
         pair.count = static_cast<std::uint32_t>(part.found.size() - begin);
         part.add(begin, pair.count, false);
     }

@@ -50,6 +50,9 @@ class PairTable {
     ///        reference_impulse; out: sorted by (a, b) @throws InputError beyond most_contacts
     void detect(const PairsInput& input, std::vector<Contact>& contacts);
 
+    /// Whether the last detection found bodies that moved deeper in each other than flights may lead them.
+    bool foundDeep() const;
+
     /// Finds the contacts of some bodies once more, since they went back where they came from. @pre detect() was the
     /// last call, or this @param back [slots] 1 = it did @param contacts as of detect()
     void detectBack(const PairsInput& input, std::span<const std::uint8_t> back, std::vector<Contact>& contacts);

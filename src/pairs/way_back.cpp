@@ -14,10 +14,8 @@ namespace cairn {
 
 namespace {
 
-/// Bodies may be in each other by this multiple of the overlap that they are allowed …
-constexpr double most_overlap = 1.3;
-
-/// … or by this part of what the deeper of them was in others before, where the correction moves them.
+/// The correction may press bodies deeper than flights: into each other by this part of what the deeper of them was in
+/// others before.
 constexpr double most_shared = 0.9;
 
 /// Whoever overlaps by more than this multiple began so.

@@ -103,6 +103,8 @@ bool takeBackFlown(WorldState& world, const PairsInput& pairs) {
                 back,         world.executor};
     };
     measureFlights(inputOf({}, {}), data.flights);
+    // Who did not move is no deeper than before.
+    if (!data.flights.far && !data.pairs.foundDeep()) return false;
     // In most steps nobody goes back, and then it is all the same who could not.
     findTooDeep(inputOf({}, {}), data.flights, data.too_deep);
     if (!findPlaces(data, inputOf({}, {}), 0)) return false;

@@ -284,6 +284,8 @@ void sleepStage(WorldState& world) {
     if (foresees(world.settings)) {
         motion.way = world.data.before.way;
         motion.part_length = world.part.length;
+        motion.mean_v = b.mean_v;
+        motion.mean_w = b.mean_w;
     }
     fallAsleep(b.state(), motion, world.settings.sleep, step, world.executor);
     letJointedSleep(world);

@@ -36,6 +36,25 @@ struct Fixture {
                    settings, {.time = step}, one_thread);
     }
 
+    /// Likewise, of bodies of which it is known where they went.
+    void sleepGone(const SleepSettings& settings, std::span<const BodyWay> way) {
+        MotionState motion{bodies.motion, bodies.r_max, bodies.constant_force, bodies.constant_torque};
+        motion.way = way;
+        motion.part_length = time_step;
+        motion.mean_v = bodies.mean_v;
+        motion.mean_w = bodies.mean_w;
+        fallAsleep(bodies.state(), motion, settings, {.time = time_step}, one_thread);
+    }
+
+    /// Lets the first body fly for a step with a velocity.
+    void fly(const SleepSettings& settings, const Vec3& v) {
+        const std::vector<BodyWay> way(1, BodyWay{.begin = {bodies.position[0], bodies.orientation[0]}, .v = v});
+        bodies.v[0] = v;
+        bodies.position[0] += time_step * v;
+        sleepGone(settings, way);
+        bodies.woken[0] = WakeReason::none;
+    }
+
     BodyStorage bodies;
     std::vector<Contact> contacts;
 };
@@ -132,12 +151,6 @@ TEST(FallingAsleep, WhoGoesNowhereSleepsInSpiteOfItsVelocity) {
     const Vec3 v(0, 0, -0.05);
     const Vec3 w(0.1, 0, 0);
     const std::vector<BodyWay> way(4, BodyWay{.begin = {}, .v = v, .w = w});
-    const auto sleep = [&] {
-        MotionState motion{s.bodies.motion, s.bodies.r_max, s.bodies.constant_force, s.bodies.constant_torque};
-        motion.way = way;
-        motion.part_length = time_step;
-        fallAsleep(s.bodies.state(), motion, settings, {.time = time_step}, one_thread);
-    };
     for (int i = 0; i < 4; ++i) s.bodies.motion[i] = 0;
     std::ranges::fill(s.bodies.v, v);
     std::ranges::fill(s.bodies.w, w);
@@ -145,7 +158,10 @@ TEST(FallingAsleep, WhoGoesNowhereSleepsInSpiteOfItsVelocity) {
     s.bodies.position[1] = time_step * v;
     s.bodies.orientation[2] = Quat(Eigen::AngleAxisd(time_step * w.norm(), Vec3::UnitX()));
     s.bodies.v[3] = Vec3(1, 0, 0);
-    sleep();
+    // As they did for long.
+    s.bodies.mean_v[1] = v;
+    s.bodies.mean_w[2] = w;
+    s.sleepGone(settings, way);
     EXPECT_EQ(std::vector<int>(s.bodies.asleep.begin(), s.bodies.asleep.end()), (std::vector<int>{1, 0, 0, 0}));
     EXPECT_NEAR(s.bodies.motion[1], 0.1 * 2 * 0.05 * 0.05, 1e-15);
     EXPECT_NEAR(s.bodies.motion[2], 0.1 * 2 * 0.1 * 0.1 * 0.5 * 0.5, 1e-15);
@@ -157,11 +173,49 @@ TEST(FallingAsleep, WhoTurnsOnceInAStepDoesNotSleep) {
     const std::vector<BodyWay> way(1, BodyWay{.begin = {}, .w = Vec3(0, 0, 2 * std::numbers::pi / time_step)});
     s.bodies.motion[0] = 0;
     s.bodies.w[0] = way[0].w;
-    MotionState motion{s.bodies.motion, s.bodies.r_max, s.bodies.constant_force, s.bodies.constant_torque};
-    motion.way = way;
-    motion.part_length = time_step;
-    fallAsleep(s.bodies.state(), motion, settings, {.time = time_step}, one_thread);
+    s.sleepGone(settings, way);
     EXPECT_EQ(s.bodies.asleep[0], 0);
+}
+
+/// Whether a body falls asleep within a second of flights to and fro. @param drift beside that [m/s]
+bool sleepsShaking(double speed, double drift) {
+    Fixture s(1);
+    const SleepSettings settings{.sleep_threshold = 0.01};
+    s.bodies.motion[0] = initialMotion(settings);
+    for (int i = 0; i < 240 && s.bodies.asleep[0] == 0; ++i) {
+        s.fly(settings, Vec3(i % 2 == 0 ? speed : -speed, 0, drift));
+    }
+    return s.bodies.asleep[0] != 0;
+}
+
+TEST(FallingAsleep, WhoGoesNowhereOnTheMeanSleepsUnlessItShakesHard) {
+    EXPECT_TRUE(sleepsShaking(0.03, 0));
+    EXPECT_FALSE(sleepsShaking(0.04, 0));
+    EXPECT_TRUE(sleepsShaking(0.01, 0.005));
+    EXPECT_FALSE(sleepsShaking(0.01, 0.01));
+    EXPECT_FALSE(sleepsShaking(0, 0.01));
+}
+
+TEST(FallingAsleep, TheTopOfAFlightIsNoRest) {
+    Fixture s(1);
+    const SleepSettings settings{.sleep_threshold = 8.33e-3};
+    s.bodies.motion[0] = initialMotion(settings);
+    for (int i = -100; i < 100; ++i) {
+        s.fly(settings, i * time_step * gravity);
+        ASSERT_EQ(s.bodies.asleep[0], 0) << i;
+    }
+}
+
+TEST(FallingAsleep, WhoWasPushedFromItsSleepMoves) {
+    Fixture s(1);
+    const SleepSettings settings{.sleep_threshold = 0.01};
+    s.bodies.asleep[0] = 1;
+    s.bodies.motion[0] = 1e-4;
+    s.bodies.state().wake(0, WakeReason::changed);
+    for (int i = 0; i < 100; ++i) {
+        s.fly(settings, Vec3(0.015, 0, 0));
+        ASSERT_EQ(s.bodies.asleep[0], 0) << i;
+    }
 }
 
 TEST(FallingAsleep, TheHistoryDecaysAlikeAtAnyTimeStep) {
