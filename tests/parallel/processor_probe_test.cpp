@@ -38,10 +38,14 @@ TEST(ProcessorProbe, SeesThatTheCallerIsOnTheOnlyProcessor) {
         if (CPU_ISSET(i, &before)) CPU_SET(i, &one);
     }
     ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
-    ProcessorProbe probe(1);
-    const bool free = wereFree(probe);
+    // Once in a while the processor is the asking thread's all of the few milliseconds.
+    int free = 0;
+    for (int i = 0; i < 5; ++i) {
+        ProcessorProbe probe(1);
+        free += wereFree(probe) ? 1 : 0;
+    }
     sched_setaffinity(0, sizeof before, &before);
-    EXPECT_FALSE(free);
+    EXPECT_LE(free, 2);
 }
 #endif
 
