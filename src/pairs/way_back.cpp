@@ -228,7 +228,7 @@ void findTooDeep(const WaysInput& input, const Flights& flights, std::vector<std
     forPairs(input, found, [&](const ContactPair& pair, std::vector<TooDeep>& part) {
         if (!flights.far && !pair.touches()) return;
         const double r_min = std::min(b.r_min[pair.a], b.r_min[pair.b]);
-        const double most = most_overlap * input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
+        const double most = most_flown_overlap * input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
         const auto isDeep = [&](const Contact& contact) { return contact.distance < -most; };
         const bool deep = std::ranges::any_of(contactsOf(input, pair), isDeep);
         const bool fast = flights.far && flownPast(b, flights, pair) > r_min;
@@ -246,7 +246,7 @@ void findPressed(const WaysInput& input, std::span<const MovedBody> moved, std::
         const MovedBody& other = moved[pair.b];
         if (!(one.way + other.way > 0) || !mayGoBack(input, pair)) return;
         const double allowed = input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
-        const double most = std::max({most_overlap, most_shared * one.deepest, most_shared * other.deepest});
+        const double most = std::max({most_flown_overlap, most_shared * one.deepest, most_shared * other.deepest});
         // They are no deeper than they were by more than they moved.
         const double way = one.way + other.way + one.unsure + other.unsure;
         double deepest = way;
@@ -265,7 +265,9 @@ void limitToDepths(const WaysInput& input, std::span<const MovedBody> moved, std
             for (const ContactPair& pair : input.pairs.subspan(begin, end - begin)) {
                 if (!pair.touches() || !(moved[pair.a].way + moved[pair.b].way > 0)) continue;
                 const auto known = contacts.subspan(pair.first, pair.count);
-                const auto isDeep = [](const Contact& c) { return c.distance < -most_overlap * c.allowed_overlap; };
+                const auto isDeep = [](const Contact& c) {
+                    return c.distance < -most_flown_overlap * c.allowed_overlap;
+                };
                 if (std::ranges::none_of(known, isDeep)) continue;
                 const double depth = PairOnWay(input, pair).depthAt(1);
                 for (Contact& contact : known) contact.distance = std::max(contact.distance, -depth);

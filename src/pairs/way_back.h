@@ -13,7 +13,7 @@
 namespace cairn {
 
 /// Flights may lead bodies into each other by this multiple of the overlap that they are allowed.
-inline constexpr double most_overlap = 1.3;
+inline constexpr double most_flown_overlap = 1.3;
 
 /// Two bodies that got too deep into each other.
 struct TooDeep {
