@@ -129,7 +129,8 @@ void Selection::beginPart(PartOfBatch& part) {
 bool Selection::widen() {
     forParts([&](PartOfBatch& part, Scratch& scratch) {
         if (!part.again) return;
-        part.again = part.holds && findDisturbed(part, scratch);
+        const bool holds_some = part.bodies < batchOf(part).bodies.size();
+        part.again = holds_some && findDisturbed(part, scratch);
         if (!part.again) return;
         revert(part);
         takeAroundAlong(part, scratch.taken);
@@ -218,13 +219,9 @@ void Selection::select(PartOfBatch& part) {
     const BatchView& batch = batchOf(part);
     const std::span<const Contact> contacts = input_->contacts;
     part.again = true;
-    part.holds = false;
     part.bodies = part.contacts = part.joints = 0;
     for (const BodyIndex i : batch.bodies) {
-        if (isHeld(i)) {
-            part.holds = true;
-            continue;
-        }
+        if (isHeld(i)) continue;
         const std::size_t place = part.body_begin + part.bodies++;
         part_bodies_[place] = i;
         before_[place] = {bodies().v[i], bodies().w[i]};

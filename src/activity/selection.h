@@ -73,7 +73,6 @@ class Selection {
         int reach = 1;       ///< how many contacts far the surroundings of the next disturbed body go
         bool again = false;  ///< to be resolved once more
         bool took_along = false;
-        bool holds = false;  ///< some of its bodies are held
     };
 
     /// What the contacts of a sleeping body push more than when it was awake last.

@@ -390,8 +390,8 @@ void PairTable::detectPair(const PairsInput& input, std::span<const Contact> las
         const std::size_t begin = part.found.size();
         collidePair(input.bodies, pair, range_, {input.bodies, range_, pair, ahead_}, manifold, part.found);
         inheritImpulses(input.bodies, before, std::span(part.found).subspan(begin));
-        const auto isDeep = [](const FoundContact& c) { return c.distance < -most_flown_overlap * c.allowed_overlap; };
-        part.deep = part.deep || std::ranges::any_of(std::span(part.found).subspan(begin), isDeep);
+        part.deep =
+            part.deep || std::ranges::any_of(std::span(part.found).subspan(begin), &isDeeperThanFlown<FoundContact>);
         pair.count = static_cast<std::uint32_t>(part.found.size() - begin);
         part.add(begin, pair.count, false);
     }

@@ -229,8 +229,7 @@ void findTooDeep(const WaysInput& input, const Flights& flights, std::vector<std
         if (!flights.far && !pair.touches()) return;
         const double r_min = std::min(b.r_min[pair.a], b.r_min[pair.b]);
         const double most = most_flown_overlap * input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
-        const auto isDeep = [&](const Contact& contact) { return contact.distance < -most; };
-        const bool deep = std::ranges::any_of(contactsOf(input, pair), isDeep);
+        const bool deep = std::ranges::any_of(contactsOf(input, pair), &isDeeperThanFlown<Contact>);
         const bool fast = flights.far && flownPast(b, flights, pair) > r_min;
         if ((!deep && !fast) || !mayGoBack(input, pair)) return;
         const PairOnWay on_way(input, pair);
@@ -265,10 +264,7 @@ void limitToDepths(const WaysInput& input, std::span<const MovedBody> moved, std
             for (const ContactPair& pair : input.pairs.subspan(begin, end - begin)) {
                 if (!pair.touches() || !(moved[pair.a].way + moved[pair.b].way > 0)) continue;
                 const auto known = contacts.subspan(pair.first, pair.count);
-                const auto isDeep = [](const Contact& c) {
-                    return c.distance < -most_flown_overlap * c.allowed_overlap;
-                };
-                if (std::ranges::none_of(known, isDeep)) continue;
+                if (std::ranges::none_of(known, &isDeeperThanFlown<Contact>)) continue;
                 const double depth = PairOnWay(input, pair).depthAt(1);
                 for (Contact& contact : known) contact.distance = std::max(contact.distance, -depth);
             }

@@ -15,6 +15,11 @@ namespace cairn {
 /// Flights may lead bodies into each other by this multiple of the overlap that they are allowed.
 inline constexpr double most_flown_overlap = 1.3;
 
+/// Whether the bodies of a contact are in each other by more than that. @param contact Contact or FoundContact
+inline bool isDeeperThanFlown(const auto& contact) {
+    return contact.distance < -most_flown_overlap * contact.allowed_overlap;
+}
+
 /// Two bodies that got too deep into each other.
 struct TooDeep {
     BodyPair pair;
