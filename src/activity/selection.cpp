@@ -196,7 +196,7 @@ void Selection::takeAlong(PartOfBatch& part, BodyIndex i) {
     held_[i] = 0;
     part.took_along = true;
     squared_reach_[i] = 0;
-    bodies().v[i] = bodies().gravityFactor(i) * bodies().fall;
+    bodies().v[i] = bodies().fallOf(i);
 }
 
 /// Takes the disturbed bodies along and all that so many contacts lead to from there.

@@ -124,16 +124,22 @@ double addInSteps(double velocity, double gain, std::int64_t step) {
     return velocity + (given(step % period + 1) - given(step % period));
 }
 
-bool isDamped(double squared_motion, const SleepSettings& settings) {
+double dampedPart(const SleepSettings& settings) {
+    return settings.sleep_threshold > 0 ? 1 - settings.damping : 1;
+}
+
+double gravityPartOf(const BodyStorage& bodies, BodyIndex i, const Vec3& v, const Vec3& w,
+                     const SleepSettings& settings) {
     constexpr double part = 0.1;
     const double threshold = settings.sleep_threshold / part;
-    return squared_motion < threshold * threshold;
+    const bool slow = squaredMotion(v, w, bodies.r_max[i]) < threshold * threshold;
+    return slow && bodies.all_weight[i] == 0 ? 1 - settings.damping : 1;
 }
 
 Vec3 accelerationOf(const BodyStorage& bodies, BodyIndex i, const Vec3& acceleration, const SleepSettings& settings) {
-    const bool slow = isDamped(squaredMotion(bodies.v[i], bodies.w[i], bodies.r_max[i]), settings);
+    const double part = gravityPartOf(bodies, i, bodies.v[i], bodies.w[i], settings);
     const Vec3 force = bodies.force[i] + bodies.constant_force[i];
-    return bodies.gravity_factor[i] * ((slow ? 1 - settings.damping : 1) * acceleration) + force * bodies.mass_inv[i];
+    return bodies.gravity_factor[i] * (part * acceleration) + force * bodies.mass_inv[i];
 }
 
 void advanceVelocities(BodyStorage& bodies, const Vec3& acceleration, const SleepSettings& settings, double time_step,

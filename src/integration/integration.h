@@ -81,9 +81,12 @@ void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, s
 /// many of the steps, and down in the others, as leaves no more than a rounding of the whole. @param step its number
 double addInSteps(double velocity, double gain, std::int64_t step);
 
-/// Whether gravity damping takes hold of a body: below ten times the speed at which it sleeps. @source thesis §5.1
-/// (8.33 and 83.3 mm/s) @param squared_motion squaredMotion() of the body [m²/s²]
-bool isDamped(double squared_motion, const SleepSettings& settings);
+/// The part of the global accelerations that gravity damping leaves to bodies slower than ten times the speed at which
+/// they sleep. @source thesis §5.1 (8.33 and 83.3 mm/s)
+double dampedPart(const SleepSettings& settings);
+/// The part that it leaves to a body. @param v, w its velocities [m/s, W], [rad/s, W]
+double gravityPartOf(const BodyStorage& bodies, BodyIndex i, const Vec3& v, const Vec3& w,
+                     const SleepSettings& settings);
 
 /// What the forces that are known change of a body's velocity per time [m/s², W].
 /// @param acceleration sum of the global accelerations [m/s², W]

@@ -47,7 +47,7 @@ struct ContactSums {
         const double inverse = (moves_a ? bodies.mass_inv[contact.a] : 0) + (moves_b ? bodies.mass_inv[contact.b] : 0);
         if (!(inverse > 0)) return;
         Vec3 velocity = relativeVelocity(contact, bodies);
-        if (moves_a != moves_b) velocity -= (moves_a ? 1 : -1) * bodies.fall;
+        if (moves_a != moves_b) velocity -= moves_a ? bodies.fallOf(contact.a) : Vec3(-bodies.fallOf(contact.b));
         mass += 1 / inverse;
         motion += velocity.squaredNorm() / inverse;
     }

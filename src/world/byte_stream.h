@@ -146,6 +146,6 @@ std::optional<FrameKind> frameKind(std::span<const std::byte> frame);
 std::size_t frameHeadSize();
 
 /// The version of the format that is written and read.
-inline constexpr std::uint32_t snapshot_version = 3;
+inline constexpr std::uint32_t snapshot_version = 4;
 
 }  // namespace cairn

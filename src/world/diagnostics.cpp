@@ -81,7 +81,8 @@ void sumForces(const WorldState& world, MeasuredSums& sums) {
         const double work = b.gravity_factor[i] * b.mass[i] * step.dot(0.5 * (data.v[i] + b.v[i]));
         sums.flight.add(work);
         sums.drives.add(b.mass[i] * frame_step.dot(0.5 * (data.v[i] + b.v[i])));
-        if (isDamped(squaredMotion(data.v[i], data.w[i], b.r_max[i]), sleep)) sums.damping.add(-sleep.damping * work);
+        const double part = gravityPartOf(b, i, data.v[i], data.w[i], sleep);
+        if (part < 1) sums.damping.add(-sleep.damping * work);
     }
 }
 

@@ -22,6 +22,7 @@
 #include "world/step_statistics.h"
 #include "world/stillness.h"
 #include "world/totals.h"
+#include "world/weights.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -191,6 +192,7 @@ void velocityStage(WorldState& world) {
     const bool touching = world.settings.resolution.restitution_speed == RestitutionSpeed::touching;
     if (exact || touching) saveVelocities(world.bodies, world.executor, data.before);
     const bool whole = world.part.isFirst() && world.part.isLast();
+    findAllWeight(world);
     advanceVelocities(world.bodies, acceleration, world.settings.sleep, world.part.length, world.executor,
                       exact && whole ? std::optional(world.steps) : std::nullopt);
     if (world.part.isLast()) clearForces(world.bodies, world.executor);
@@ -231,9 +233,9 @@ void resolveStage(WorldState& world) {
     }
     bodies.time_step = nextPartLength(world);
     bodies.surface = data.surface;
-    const SleepSettings& sleep = world.settings.sleep;
-    bodies.fall = (isDamped(0, sleep) ? 1 - sleep.damping : 1.0) * world.part.length *
-                  (world.gravity + world.global_acceleration);
+    const Vec3 acceleration = world.gravity + world.global_acceleration;
+    bodies.whole_fall = world.part.length * acceleration;
+    bodies.damped_fall = dampedPart(world.settings.sleep) * world.part.length * acceleration;
     applyPairLaws(world, bodies);
     buildJointBlocks(world);
     // Asked before a driven joint may break in this very step.

@@ -97,7 +97,7 @@ class Pile : public BodyStorage {
         const BatchView batch{bodies, indices, {}};
         BodyState all = state();
         all.time_step = 1.0 / 240;
-        all.fall = gravity / 240;
+        all.damped_fall = gravity / 240;
         const bool parts = settings.resolution == ResolutionKind::accelerated_sweeps;
         Selection selection;
         selection.begin({{&batch, 1},
