@@ -124,14 +124,18 @@ double addInSteps(double velocity, double gain, std::int64_t step) {
     return velocity + (given(step % period + 1) - given(step % period));
 }
 
+double dampedSpeed(const SleepSettings& settings) {
+    constexpr double part = 0.1;
+    return settings.sleep_threshold / part;
+}
+
 double dampedPart(const SleepSettings& settings) {
     return settings.sleep_threshold > 0 ? 1 - settings.damping : 1;
 }
 
 double gravityPartOf(const BodyStorage& bodies, BodyIndex i, const Vec3& v, const Vec3& w,
                      const SleepSettings& settings) {
-    constexpr double part = 0.1;
-    const double threshold = settings.sleep_threshold / part;
+    const double threshold = dampedSpeed(settings);
     const bool slow = squaredMotion(v, w, bodies.r_max[i]) < threshold * threshold;
     return slow && bodies.all_weight[i] == 0 ? 1 - settings.damping : 1;
 }

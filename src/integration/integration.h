@@ -81,8 +81,10 @@ void completeSmoothMotion(BodyStorage& bodies, const VelocitiesBefore& before, s
 /// many of the steps, and down in the others, as leaves no more than a rounding of the whole. @param step its number
 double addInSteps(double velocity, double gain, std::int64_t step);
 
-/// The part of the global accelerations that gravity damping leaves to bodies slower than ten times the speed at which
-/// they sleep. @source thesis §5.1 (8.33 and 83.3 mm/s)
+/// Gravity damping takes hold of what is slower: ten times the speed at which it sleeps. @source thesis §5.1 (8.33 and
+/// 83.3 mm/s)
+double dampedSpeed(const SleepSettings& settings);
+/// The part of the global accelerations that gravity damping leaves to bodies at rest.
 double dampedPart(const SleepSettings& settings);
 /// The part that it leaves to a body. @param v, w its velocities [m/s, W], [rad/s, W]
 double gravityPartOf(const BodyStorage& bodies, BodyIndex i, const Vec3& v, const Vec3& w,

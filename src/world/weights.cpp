@@ -18,13 +18,20 @@ bool isLoading(const Joint& joint) {
     return std::ranges::any_of(joint.free, [](const FreeAxis& axis) { return axis.mayDrive() || axis.resists(); });
 }
 
+/// Whether drag holds more of a body that is as slow as damping asks for than can be neglected.
+bool isDragged(const WorldState& world, BodyIndex i) {
+    constexpr double negligible = 0.01;  // of the weight
+    const double gravity = (world.gravity + world.global_acceleration).norm();
+    return world.bodies.linear_damping[i] * dampedSpeed(world.settings.sleep) > negligible * gravity;
+}
+
 /// Calls mark(body) with all that other forces than gravity act on; of springs and joints also with what cannot move.
 template <class Mark>
 void forForced(const WorldState& world, const Mark& mark) {
     const BodyStorage& b = world.bodies;
     const std::vector<Carried>& carried = world.data.carried;
     for (BodyIndex i = 0; i < b.slots(); ++i) {
-        if (isPushed(b, i) || (!carried.empty() && carried[i] != Carried::not_at_all)) mark(i);
+        if (isPushed(b, i) || isDragged(world, i) || (!carried.empty() && carried[i] != Carried::not_at_all)) mark(i);
     }
     for (const Spring& spring : world.springs) {
         if (!spring.present) continue;

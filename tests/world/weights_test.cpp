@@ -80,6 +80,25 @@ TEST(Weights, ThePresetsOfTheThesisDampAlways) {
     EXPECT_GT(floor.world.pose(pushed).position.x(), 0.01) << "0.3 of its weight does not hold it";
 }
 
+/// With a part of its weight taken it would hang in the air.
+TEST(Weights, WhatIsLiftedByLessThanItsWeightFalls) {
+    PushedBoxes floor;
+    const BodyId lifted = floor.box({0, 0, 10});
+    floor.world.setConstantForce(lifted, {0, 0, 0.4 * 8 * gravity});
+    floor.run(240);
+    EXPECT_NEAR(floor.world.linearVelocity(lifted).z(), -0.6 * gravity, 1e-9);
+}
+
+/// It sinks more slowly than what damping takes hold of; a step adds what gravity gives, then drag takes its part.
+TEST(Weights, WhatSinksSlowlySinksAsFastAsItsDragLets) {
+    PushedBoxes floor;
+    const BodyId sinking = floor.box({0, 0, 1});
+    floor.world.setDamping(sinking, 200, 0);
+    floor.run(240);
+    const double step = floor.world.settings().timeStep();
+    EXPECT_NEAR(floor.world.linearVelocity(sinking).z(), -gravity * step / std::expm1(200 * step), 1e-9);
+}
+
 TEST(Weights, ASpringCarriesAll) {
     PushedBoxes floor;
     const BodyId hung = floor.box({0, 0, 1});
