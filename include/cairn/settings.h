@@ -88,7 +88,8 @@ struct SleepSettings {
     /// faster than this.
     double sleep_threshold = 8.33e-3;
     /// Part of gravity taken away from bodies whose motion is below ten times sleep_threshold, 0 = off, ≤ 0.99
-    /// (Algorithm 12). accelerated_sweeps takes nothing from bodies in whose batch other forces act.
+    /// (Algorithm 12). accelerated_sweeps takes nothing from bodies in whose batch other forces act,
+    /// and from what moves evenly.
     double damping = 0.7;
 };
 

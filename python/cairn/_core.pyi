@@ -1346,7 +1346,7 @@ class SleepSettings(_Record):
         [m/s]"""
     @property
     def damping(self) -> float:
-        """part of gravity taken from bodies slower than ten times sleep_threshold; 0 = off (Algorithm 12); 'accelerated_sweeps' takes nothing where other forces act as well"""
+        """part of gravity taken from bodies slower than ten times sleep_threshold; 0 = off (Algorithm 12); 'accelerated_sweeps' takes nothing where other forces act as well and from what moves evenly"""
 
 class IntegrationSettings(_Record):
     """Motion of bodies."""

@@ -133,11 +133,26 @@ double dampedPart(const SleepSettings& settings) {
     return settings.sleep_threshold > 0 ? 1 - settings.damping : 1;
 }
 
+namespace {
+
+/// The velocity of what moves evenly differs from its mean of late by at most this part of that.
+constexpr double most_uneven = 0.2;
+
+/// Whether a body goes somewhere, and as fast as it did.
+bool movesEvenly(const BodyStorage& bodies, BodyIndex i, const Vec3& v, const Vec3& w, const SleepSettings& settings) {
+    const double r_max = bodies.r_max[i];
+    const double mean = squaredMotion(bodies.mean_v[i], bodies.mean_w[i], r_max);
+    if (!(mean > settings.sleep_threshold * settings.sleep_threshold)) return false;
+    return squaredMotion(v - bodies.mean_v[i], w - bodies.mean_w[i], r_max) < most_uneven * most_uneven * mean;
+}
+
+}  // namespace
+
 double gravityPartOf(const BodyStorage& bodies, BodyIndex i, const Vec3& v, const Vec3& w,
                      const SleepSettings& settings) {
     const double threshold = dampedSpeed(settings);
     const bool slow = squaredMotion(v, w, bodies.r_max[i]) < threshold * threshold;
-    return slow && bodies.all_weight[i] == 0 ? 1 - settings.damping : 1;
+    return slow && bodies.all_weight[i] == 0 && !movesEvenly(bodies, i, v, w, settings) ? 1 - settings.damping : 1;
 }
 
 Vec3 accelerationOf(const BodyStorage& bodies, BodyIndex i, const Vec3& acceleration, const SleepSettings& settings) {

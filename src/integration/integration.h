@@ -86,7 +86,9 @@ double addInSteps(double velocity, double gain, std::int64_t step);
 double dampedSpeed(const SleepSettings& settings);
 /// The part of the global accelerations that gravity damping leaves to bodies at rest.
 double dampedPart(const SleepSettings& settings);
-/// The part that it leaves to a body. @param v, w its velocities [m/s, W], [rad/s, W]
+/// The part that it leaves to a body. What moves evenly keeps all of its weight, by which friction and rolling friction
+/// slow it down; bodies have no mean velocities with the thesis's presets. @param v, w its velocities [m/s, W], [rad/s,
+/// W]
 double gravityPartOf(const BodyStorage& bodies, BodyIndex i, const Vec3& v, const Vec3& w,
                      const SleepSettings& settings);
 

@@ -131,7 +131,7 @@ const std::vector<SettingField>& settingTable() {
         plain<&S::sleep, &L::damping>(
             "damping", "sleep", "", 0, 0.99,
             "part of gravity taken from bodies slower than ten times sleep_threshold; 0 = off (Algorithm 12); "
-            "'accelerated_sweeps' takes nothing where other forces act as well"),
+            "'accelerated_sweeps' takes nothing where other forces act as well and from what moves evenly"),
         plain<&S::integration, &I::exact_flight>(
             "exact_flight", "integration", "", 0, 1,
             "smooth motion follows the mean of a step's velocities, so that free bodies keep to the parabola"),

@@ -18,11 +18,11 @@ bool isLoading(const Joint& joint) {
     return std::ranges::any_of(joint.free, [](const FreeAxis& axis) { return axis.mayDrive() || axis.resists(); });
 }
 
-/// Whether drag holds more of a body that is as slow as damping asks for than can be neglected.
-bool isDragged(const WorldState& world, BodyIndex i) {
-    constexpr double negligible = 0.01;  // of the weight
-    const double gravity = (world.gravity + world.global_acceleration).norm();
-    return world.bodies.linear_damping[i] * dampedSpeed(world.settings.sleep) > negligible * gravity;
+/// The rate up to which drag can be neglected: with it, what is as slow as damping asks for is held by a hundredth of
+/// its weight [1/s].
+double negligibleDrag(const WorldState& world) {
+    constexpr double part = 0.01;
+    return part * (world.gravity + world.global_acceleration).norm() / dampedSpeed(world.settings.sleep);
 }
 
 /// Calls mark(body) with all that other forces than gravity act on; of springs and joints also with what cannot move.
@@ -30,8 +30,11 @@ template <class Mark>
 void forForced(const WorldState& world, const Mark& mark) {
     const BodyStorage& b = world.bodies;
     const std::vector<Carried>& carried = world.data.carried;
+    const double negligible = negligibleDrag(world);
     for (BodyIndex i = 0; i < b.slots(); ++i) {
-        if (isPushed(b, i) || isDragged(world, i) || (!carried.empty() && carried[i] != Carried::not_at_all)) mark(i);
+        if (isPushed(b, i) || b.linear_damping[i] > negligible ||
+            (!carried.empty() && carried[i] != Carried::not_at_all))
+            mark(i);
     }
     for (const Spring& spring : world.springs) {
         if (!spring.present) continue;

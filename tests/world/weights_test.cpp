@@ -1,4 +1,4 @@
-/// What other forces than gravity act on feels all of its weight, however slow it is.
+/// What other forces than gravity act on, and what moves evenly, feels all of its weight, however slow it is.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -78,6 +78,27 @@ TEST(Weights, ThePresetsOfTheThesisDampAlways) {
     floor.world.setConstantForce(pushed, {0.8 * friction * 8 * gravity, 0, 0});
     floor.run(240);
     EXPECT_GT(floor.world.pose(pushed).position.x(), 0.01) << "0.3 of its weight does not hold it";
+}
+
+/// Rolling friction of 1 mm slows a ball of 0.1 m down by 5/7 of gravity's hundredth.
+TEST(Weights, ABallRollsAsFarAsRollingFrictionLets) {
+    PushedBoxes floor;
+    floor.world.setDefaultPairProperties({.restitution = 0,
+                                          .static_friction = friction,
+                                          .kinetic_friction = friction,
+                                          .rolling_friction = 1e-3,
+                                          .spinning_friction = 1e-3});
+    constexpr double speed = 0.08;
+    const BodyId ball = floor.world.addBody({.shape = Sphere{0.1},
+                                             .material = floor.stone,
+                                             .pose = Pose{Vec3(0, 0, 0.1)},
+                                             .linear_velocity = Vec3(speed, 0, 0),
+                                             .angular_velocity = Vec3(0, speed / 0.1, 0)});
+    for (int i = 0; i < 2400 && !floor.world.isAsleep(ball); ++i) floor.run(1);
+    const double deceleration = gravity * 1e-3 / 0.1 / 1.4;
+    const double way = speed * speed / (2 * deceleration);
+    EXPECT_NEAR(floor.world.pose(ball).position.x(), way, 0.03 * way);
+    EXPECT_LT(floor.world.time(), 1.2 * speed / deceleration) << "and sleeps then";
 }
 
 /// With a part of its weight taken it would hang in the air.
