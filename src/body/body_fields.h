@@ -20,6 +20,13 @@ namespace cairn {
 /// Index of a body's slot.
 using BodyIndex = std::uint32_t;
 
+/// What acts on the bodies of a batch besides gravity.
+enum class Load : std::uint8_t {
+    none,
+    carried,  ///< moving fixed bodies
+    pulled    ///< forces, of users, springs and joints, or drag
+};
+
 /// Structure of arrays with one entry per slot; a hole's entries are those of its last body, its kind is hole.
 struct BodyArrays {
     FieldArray<BodyKind> kind;
@@ -50,13 +57,13 @@ struct BodyArrays {
     FieldArray<std::uint8_t> asleep;                   ///< 1 = asleep
     FieldArray<std::uint8_t> held;                     ///< 1 = it hardly got anywhere on its last flight
     FieldArray<WakeReason> woken;                      ///< why it woke in this step
-    FieldArray<Vec3> mean_v, mean_w;      ///< recency-weighted averages of the velocities [m/s, W], [rad/s, W]
-    FieldArray<double> motion;            ///< rwa: recency-weighted average of the squared motion [m²/s²] (3.2.4)
-    FieldArray<std::uint8_t> all_weight;  ///< 1 = gravity damping leaves it alone
-    FieldArray<std::int32_t> supports;    ///< contacts in the direction of gravity in the last step; −1 = unknown
-    FieldArray<std::uint64_t> groups;     ///< bits of the groups that it is in
-    FieldArray<std::uint8_t> sensor;      ///< 1 = reports who is inside and touches nobody
-    FieldArray<double> gravity_factor;    ///< of the global accelerations that it feels
+    FieldArray<Vec3> mean_v, mean_w;    ///< recency-weighted averages of the velocities [m/s, W], [rad/s, W]
+    FieldArray<double> motion;          ///< rwa: recency-weighted average of the squared motion [m²/s²] (3.2.4)
+    FieldArray<Load> load;              ///< of its batch: beside one, gravity is not damped
+    FieldArray<std::int32_t> supports;  ///< contacts in the direction of gravity in the last step; −1 = unknown
+    FieldArray<std::uint64_t> groups;   ///< bits of the groups that it is in
+    FieldArray<std::uint8_t> sensor;    ///< 1 = reports who is inside and touches nobody
+    FieldArray<double> gravity_factor;  ///< of the global accelerations that it feels
     FieldArray<double> linear_damping, angular_damping;  ///< rates at which its velocities decay [1/s]
     FieldArray<Vec3> surface_velocity;                   ///< of a fixed body [m/s, frame of the shape]
     FieldArray<std::uint64_t> user_data;                 ///< the user's own
@@ -139,7 +146,7 @@ inline constexpr auto body_fields = std::tuple{
     BodyField{&BodyArrays::mean_v, "mean_v", "m/s", Change::steps},
     BodyField{&BodyArrays::mean_w, "mean_w", "rad/s", Change::steps},
     BodyField{&BodyArrays::motion, "motion", "m²/s²", Change::steps},
-    BodyField{&BodyArrays::all_weight, "all_weight", "", Change::steps},
+    BodyField{&BodyArrays::load, "load", "", Change::steps},
     BodyField{&BodyArrays::supports, "supports", "1", Change::steps, [] { return -1; }},
     BodyField{&BodyArrays::groups, "groups", "", Change::calls},
     BodyField{&BodyArrays::sensor, "sensor", "", Change::calls},

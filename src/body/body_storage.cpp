@@ -168,7 +168,7 @@ BodyState BodyStorage::state() {
             .asleep = asleep,
             .woken = woken,
             .gravity_factor = gravity_factor,
-            .all_weight = all_weight,
+            .load = load,
             .shock_stage = {}};
 }
 

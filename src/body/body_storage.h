@@ -15,25 +15,25 @@ namespace cairn {
 /// The state of bodies that the response reads and writes; knows nothing of shapes. All spans have one entry per slot.
 struct BodyState {
     std::span<const BodyKind> kind;
-    std::span<Vec3> position;                    ///< centre of mass [m, W]
-    std::span<Quat> orientation;                 ///< B to W
-    std::span<Vec3> v;                           ///< [m/s, W]
-    std::span<Vec3> w;                           ///< [rad/s, W]
-    std::span<const double> mass_inv;            ///< [1/kg]; 0 for fixed bodies
-    std::span<const Vec3> inertiaInv_B;          ///< [1/(kg·m²), B]; 0 for fixed bodies
-    std::span<Mat3> inertiaInv_W;                ///< [1/(kg·m²), W]; 0 for fixed bodies
-    std::span<const Vec3> linear_step;           ///< ℓ: displacement by the linear velocity in this time step [m, W]
-    std::span<std::uint32_t> place;              ///< among the bodies of its batch, where that was written down
-    std::span<std::uint8_t> asleep;              ///< 1 = asleep
-    std::span<WakeReason> woken;                 ///< why it woke in this step
-    std::span<const double> gravity_factor{};    ///< of the global accelerations that it feels; empty = all of it
-    std::span<const std::uint8_t> all_weight{};  ///< 1 = gravity damping leaves it alone; empty = nobody
+    std::span<Vec3> position;                  ///< centre of mass [m, W]
+    std::span<Quat> orientation;               ///< B to W
+    std::span<Vec3> v;                         ///< [m/s, W]
+    std::span<Vec3> w;                         ///< [rad/s, W]
+    std::span<const double> mass_inv;          ///< [1/kg]; 0 for fixed bodies
+    std::span<const Vec3> inertiaInv_B;        ///< [1/(kg·m²), B]; 0 for fixed bodies
+    std::span<Mat3> inertiaInv_W;              ///< [1/(kg·m²), W]; 0 for fixed bodies
+    std::span<const Vec3> linear_step;         ///< ℓ: displacement by the linear velocity in this time step [m, W]
+    std::span<std::uint32_t> place;            ///< among the bodies of its batch, where that was written down
+    std::span<std::uint8_t> asleep;            ///< 1 = asleep
+    std::span<WakeReason> woken;               ///< why it woke in this step
+    std::span<const double> gravity_factor{};  ///< of the global accelerations that it feels; empty = all of it
+    std::span<const Load> load{};              ///< besides gravity; empty = nobody has one
 
     /// Sum of the global accelerations, for the correction [m/s², W].
     Vec3 acceleration = Vec3::Zero();
     /// The length of a time step, for the resolution [s].
     double time_step = 0;
-    /// What gravity gives in this time step to bodies at rest, and to those that feel all of it [m/s, W].
+    /// What gravity gives in this time step to bodies at rest, and to those with a load [m/s, W].
     Vec3 damped_fall = Vec3::Zero(), whole_fall = Vec3::Zero();
     /// How the surfaces of fixed bodies move over them [slots] [m/s, W]; empty = none does.
     std::span<const Vec3> surface{};
@@ -50,11 +50,9 @@ struct BodyState {
     }
     double gravityFactor(BodyIndex i) const { return gravity_factor.empty() ? 1.0 : gravity_factor[i]; }
     bool isFixed(BodyIndex i) const { return kind[i] != BodyKind::dynamic; }
+    Load loadOf(BodyIndex i) const { return load.empty() ? Load::none : load[i]; }
     /// What gravity gives a body in this time step if it is at rest [m/s, W].
-    Vec3 fallOf(BodyIndex i) const {
-        const bool whole = !all_weight.empty() && all_weight[i] != 0;
-        return gravityFactor(i) * (whole ? whole_fall : damped_fall);
-    }
+    Vec3 fallOf(BodyIndex i) const { return gravityFactor(i) * (loadOf(i) == Load::none ? damped_fall : whole_fall); }
     /// Whether the resolution cannot move it.
     bool isImmovable(BodyIndex i) const { return isFixed(i) || (!held.empty() && held[i] != 0); }
     /// Writes down where the bodies of a batch stand in its list.

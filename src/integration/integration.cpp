@@ -152,7 +152,7 @@ double gravityPartOf(const BodyStorage& bodies, BodyIndex i, const Vec3& v, cons
                      const SleepSettings& settings) {
     const double threshold = dampedSpeed(settings);
     const bool slow = squaredMotion(v, w, bodies.r_max[i]) < threshold * threshold;
-    return slow && bodies.all_weight[i] == 0 && !movesEvenly(bodies, i, v, w, settings) ? 1 - settings.damping : 1;
+    return slow && bodies.load[i] == Load::none && !movesEvenly(bodies, i, v, w, settings) ? 1 - settings.damping : 1;
 }
 
 Vec3 accelerationOf(const BodyStorage& bodies, BodyIndex i, const Vec3& acceleration, const SleepSettings& settings) {

@@ -37,6 +37,7 @@ constexpr double most_products = 25;
 struct ContactSums {
     double mass = 0;    ///< reduced masses of the bodies [kg]
     double motion = 0;  ///< with the squared velocities before the step's gravity [J]
+    double scale = 0;   ///< what of that tells how exact impulses need to be [J]
     double depth = 0;   ///< squared overlaps as multiples of what is allowed
 
     /// The mass is that of the two bodies against each other as far as they can move.
@@ -50,6 +51,10 @@ struct ContactSums {
         if (moves_a != moves_b) velocity -= moves_a ? bodies.fallOf(contact.a) : Vec3(-bodies.fallOf(contact.b));
         mass += 1 / inverse;
         motion += velocity.squaredNorm() / inverse;
+        // Friction that balances a force must not become less exact the faster the force makes its bodies slide.
+        const bool pulled = std::max(bodies.loadOf(contact.a), bodies.loadOf(contact.b)) == Load::pulled;
+        const double along = contact.normal.dot(velocity);
+        scale += (pulled ? along * along : velocity.squaredNorm()) / inverse;
     }
 };
 
@@ -91,7 +96,7 @@ BatchKind kindOf(const BatchView& batch, std::span<const Contact> contacts, cons
         sums.add(contact, bodies);
     }
     const auto count = static_cast<double>(batch.contacts.size());
-    kind.motion = std::sqrt(sums.motion);
+    kind.motion = std::sqrt(sums.scale);
     kind.depth = count > 0 ? std::sqrt(sums.depth / count) : 0;
     kind.safe_way = safe_multiple * least_allowed;
     kind.framed = kind.framed || kind.rolling > 0;

@@ -191,6 +191,7 @@ void completeBodies(const ByteReader& in, std::size_t materials, std::uint64_t n
     const std::size_t slots = b.kind.size();
     if (std::ranges::any_of(b.kind, [](BodyKind kind) { return kind > BodyKind::dynamic; }) ||
         std::ranges::any_of(b.woken, [](WakeReason reason) { return reason > WakeReason::floating; }) ||
+        std::ranges::any_of(b.load, [](Load load) { return load > Load::pulled; }) ||
         std::ranges::any_of(b.asleep, [](std::uint8_t asleep) { return asleep > 1; }) ||
         std::ranges::any_of(b.sensor, [](std::uint8_t sensor) { return sensor > 1; })) {
         in.refuse("an unknown state of a body");

@@ -14,6 +14,7 @@
 #include "world/events.h"
 #include "world/faults.h"
 #include "world/joints.h"
+#include "world/loads.h"
 #include "world/motions.h"
 #include "world/pair_laws.h"
 #include "world/parts.h"
@@ -22,7 +23,6 @@
 #include "world/step_statistics.h"
 #include "world/stillness.h"
 #include "world/totals.h"
-#include "world/weights.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -192,7 +192,7 @@ void velocityStage(WorldState& world) {
     const bool touching = world.settings.resolution.restitution_speed == RestitutionSpeed::touching;
     if (exact || touching) saveVelocities(world.bodies, world.executor, data.before);
     const bool whole = world.part.isFirst() && world.part.isLast();
-    findAllWeight(world);
+    findLoads(world);
     advanceVelocities(world.bodies, acceleration, world.settings.sleep, world.part.length, world.executor,
                       exact && whole ? std::optional(world.steps) : std::nullopt);
     if (world.part.isLast()) clearForces(world.bodies, world.executor);

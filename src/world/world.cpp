@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "world/motions.h"
+#include "world/parts.h"
 #include "world/step_rate.h"
 #include "world/stillness.h"
 #include "world/world_state.h"
@@ -32,6 +33,10 @@ void WorldState::applySettings(const Settings& s) {
         time_at_start = time;
     }
     settings = s;
+    if (foresees(s)) return;
+    // What follows from mean velocities is not the thesis's.
+    std::ranges::fill(bodies.mean_v, Vec3::Zero());
+    std::ranges::fill(bodies.mean_w, Vec3::Zero());
 }
 
 void WorldState::wakeAll() {

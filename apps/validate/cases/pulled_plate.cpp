@@ -74,15 +74,14 @@ Course pull(const Settings& settings, const Plan& plan) {
 }
 
 /// Adds what was found. @param allowed error [m/s]; none = shown only
-void add(Result& result, const Course& course, std::optional<double> allowed, const std::string& setup,
-         const std::string& note = {}) {
+void add(Result& result, const Course& course, std::optional<double> allowed, const std::string& setup) {
     for (const auto& [what, error] :
          {std::pair("velocity of the plate, root of the mean squared error", course.plate_error),
           std::pair("velocities of the balls, likewise", course.balls_error)}) {
         if (allowed) {
-            result.atMost(what, "m/s", error, *allowed, setup, note);
+            result.atMost(what, "m/s", error, *allowed, setup);
         } else {
-            result.show(what, "m/s", error, setup, note);
+            result.show(what, "m/s", error, setup);
         }
     }
     result.show("a time step", "ms", 1e3 * course.step_time, setup);
@@ -102,9 +101,7 @@ Result run(const Plan& plan) {
     settings.resolution.resolution_threshold = 1e-9;
     add(result, pull(settings, plan), 1e-8, "accuracy, sweeps to the end");
     settings = withPreset(Preset::performance);
-    add(result, pull(settings, plan), std::nullopt, "performance", "wanted is at most 0.001");
-    settings.resolution.tolerance = 0.01;
-    add(result, pull(settings, plan), 1e-3, "performance, tolerance 0.01");
+    add(result, pull(settings, plan), 1e-3, "performance");
     return result;
 }
 

@@ -39,7 +39,7 @@ struct PushedBoxes {
     }
 };
 
-TEST(Weights, FrictionHoldsAForceThatAllOfTheWeightHolds) {
+TEST(Loads, FrictionHoldsAForceThatAllOfTheWeightHolds) {
     PushedBoxes floor;
     const BodyId pushed = floor.box({0, 0, 0.1});
     const BodyId other = floor.box({2, 0, 0.1});
@@ -52,7 +52,7 @@ TEST(Weights, FrictionHoldsAForceThatAllOfTheWeightHolds) {
     EXPECT_NEAR(floor.borne(other), 1 - floor.world.settings().sleep.damping, 0.01);
 }
 
-TEST(Weights, AForceOfOneStepCounts) {
+TEST(Loads, AForceOfOneStepCounts) {
     PushedBoxes floor;
     const BodyId pushed = floor.box({0, 0, 0.1});
     floor.run(240);
@@ -63,7 +63,7 @@ TEST(Weights, AForceOfOneStepCounts) {
     EXPECT_NEAR(floor.world.pose(pushed).position.x(), 0, 1e-4);
 }
 
-TEST(Weights, WhatStandsOnAPushedBodyPressesWithAllOfIts) {
+TEST(Loads, WhatStandsOnAPushedBodyPressesWithAllOfIts) {
     PushedBoxes floor;
     const BodyId pushed = floor.box({0, 0, 0.1});
     floor.box({0, 0, 0.3});
@@ -72,7 +72,7 @@ TEST(Weights, WhatStandsOnAPushedBodyPressesWithAllOfIts) {
     EXPECT_NEAR(floor.world.pose(pushed).position.x(), 0, 1e-4);
 }
 
-TEST(Weights, ThePresetsOfTheThesisDampAlways) {
+TEST(Loads, ThePresetsOfTheThesisDampAlways) {
     PushedBoxes floor(Preset::thesis);
     const BodyId pushed = floor.box({0, 0, 0.1});
     floor.world.setConstantForce(pushed, {0.8 * friction * 8 * gravity, 0, 0});
@@ -81,7 +81,7 @@ TEST(Weights, ThePresetsOfTheThesisDampAlways) {
 }
 
 /// Rolling friction of 1 mm slows a ball of 0.1 m down by 5/7 of gravity's hundredth.
-TEST(Weights, ABallRollsAsFarAsRollingFrictionLets) {
+TEST(Loads, ABallRollsAsFarAsRollingFrictionLets) {
     PushedBoxes floor;
     floor.world.setDefaultPairProperties({.restitution = 0,
                                           .static_friction = friction,
@@ -102,7 +102,7 @@ TEST(Weights, ABallRollsAsFarAsRollingFrictionLets) {
 }
 
 /// With a part of its weight taken it would hang in the air.
-TEST(Weights, WhatIsLiftedByLessThanItsWeightFalls) {
+TEST(Loads, WhatIsLiftedByLessThanItsWeightFalls) {
     PushedBoxes floor;
     const BodyId lifted = floor.box({0, 0, 10});
     floor.world.setConstantForce(lifted, {0, 0, 0.4 * 8 * gravity});
@@ -111,7 +111,7 @@ TEST(Weights, WhatIsLiftedByLessThanItsWeightFalls) {
 }
 
 /// It sinks more slowly than what damping takes hold of; a step adds what gravity gives, then drag takes its part.
-TEST(Weights, WhatSinksSlowlySinksAsFastAsItsDragLets) {
+TEST(Loads, WhatSinksSlowlySinksAsFastAsItsDragLets) {
     PushedBoxes floor;
     const BodyId sinking = floor.box({0, 0, 1});
     floor.world.setDamping(sinking, 200, 0);
@@ -120,7 +120,7 @@ TEST(Weights, WhatSinksSlowlySinksAsFastAsItsDragLets) {
     EXPECT_NEAR(floor.world.linearVelocity(sinking).z(), -gravity * step / std::expm1(200 * step), 1e-9);
 }
 
-TEST(Weights, ASpringCarriesAll) {
+TEST(Loads, ASpringCarriesAll) {
     PushedBoxes floor;
     const BodyId hung = floor.box({0, 0, 1});
     constexpr double stiffness = 8e4;
@@ -130,7 +130,7 @@ TEST(Weights, ASpringCarriesAll) {
     EXPECT_NEAR(floor.world.pose(hung).position.z(), 1 - 8 * gravity / stiffness, 2e-5);
 }
 
-TEST(Weights, AServoBearsAll) {
+TEST(Loads, AServoBearsAll) {
     PushedBoxes floor;
     const BodyId lifted = floor.box({0, 0, 1});
     constexpr double stiffness = 8e4;
@@ -142,7 +142,7 @@ TEST(Weights, AServoBearsAll) {
 }
 
 /// A table that speeds up slower than all of the weight's friction allows takes along what stands on it.
-TEST(Weights, AMovingTableTakesAlongWhatFrictionHolds) {
+TEST(Loads, AMovingTableTakesAlongWhatFrictionHolds) {
     PushedBoxes floor;
     const BodyId table = floor.world.addBody(
         {.shape = Box{{8, 4, 0.2}}, .material = floor.stone, .pose = Pose{Vec3(0, 9, 0.9)}, .fixed = true});

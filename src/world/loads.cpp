@@ -1,4 +1,4 @@
-#include "world/weights.h"
+#include "world/loads.h"
 
 #include <algorithm>
 
@@ -25,46 +25,46 @@ double negligibleDrag(const WorldState& world) {
     return part * (world.gravity + world.global_acceleration).norm() / dampedSpeed(world.settings.sleep);
 }
 
-/// Calls mark(body) with all that other forces than gravity act on; of springs and joints also with what cannot move.
+/// Calls mark(body, load) for the loads of single bodies; of springs and joints also for what cannot move.
 template <class Mark>
-void forForced(const WorldState& world, const Mark& mark) {
+void forLoads(const WorldState& world, const Mark& mark) {
     const BodyStorage& b = world.bodies;
     const std::vector<Carried>& carried = world.data.carried;
     const double negligible = negligibleDrag(world);
     for (BodyIndex i = 0; i < b.slots(); ++i) {
-        if (isPushed(b, i) || b.linear_damping[i] > negligible ||
-            (!carried.empty() && carried[i] != Carried::not_at_all))
-            mark(i);
+        if (!carried.empty() && carried[i] != Carried::not_at_all) mark(i, Load::carried);
+        if (isPushed(b, i) || b.linear_damping[i] > negligible) mark(i, Load::pulled);
     }
     for (const Spring& spring : world.springs) {
         if (!spring.present) continue;
-        mark(spring.a);
-        mark(spring.b);
+        mark(spring.a, Load::pulled);
+        mark(spring.b, Load::pulled);
     }
     for (const Joint& joint : world.joints) {
         if (!joint.present || !isLoading(joint)) continue;
-        mark(joint.a);
-        mark(joint.b);
+        mark(joint.a, Load::pulled);
+        mark(joint.b, Load::pulled);
     }
 }
 
 }  // namespace
 
-void findAllWeight(WorldState& world) {
-    FieldArray<std::uint8_t>& whole = world.bodies.all_weight;
-    std::ranges::fill(whole, 0);
-    if (!(world.settings.sleep.damping > 0) || !foresees(world.settings)) return;
+void findLoads(WorldState& world) {
+    FieldArray<Load>& loads = world.bodies.load;
+    std::ranges::fill(loads, Load::none);
+    if (!foresees(world.settings)) return;
     bool any = false;
-    forForced(world, [&](BodyIndex i) {
+    forLoads(world, [&](BodyIndex i, Load load) {
         if (i >= world.bodies.slots() || world.bodies.kind[i] != BodyKind::dynamic) return;
-        whole[i] = 1;
+        loads[i] = std::max(loads[i], load);
         any = true;
     });
     if (!any) return;
     for (std::size_t batch = 0; batch < world.data.batches.size(); ++batch) {
-        const auto bodies = world.data.batches[batch].bodies;
-        if (std::ranges::none_of(bodies, [&](BodyIndex i) { return whole[i] != 0; })) continue;
-        for (const BodyIndex i : bodies) whole[i] = 1;
+        Load most = Load::none;
+        for (const BodyIndex i : world.data.batches[batch].bodies) most = std::max(most, loads[i]);
+        if (most == Load::none) continue;
+        for (const BodyIndex i : world.data.batches[batch].bodies) loads[i] = most;
     }
 }
 
