@@ -152,7 +152,8 @@ double gravityPartOf(const BodyStorage& bodies, BodyIndex i, const Vec3& v, cons
                      const SleepSettings& settings) {
     const double threshold = dampedSpeed(settings);
     const bool slow = squaredMotion(v, w, bodies.r_max[i]) < threshold * threshold;
-    return slow && bodies.load[i] == Load::none && !movesEvenly(bodies, i, v, w, settings) ? 1 - settings.damping : 1;
+    const bool damped = slow && bodies.load[i] == Load::none && !movesEvenly(bodies, i, v, w, settings);
+    return damped ? dampedPart(settings) : 1;
 }
 
 Vec3 accelerationOf(const BodyStorage& bodies, BodyIndex i, const Vec3& acceleration, const SleepSettings& settings) {

@@ -12,9 +12,11 @@ struct BatchKind {
     bool may_step_directly = false;  ///< direct steps are taken where sweeps are not enough
     bool coloured = false;           ///< large enough to be solved by colours
     std::size_t rolling = 0;         ///< contacts that resist rolling
-    double motion = 0;               ///< how its contacts moved before the step's forces, in the measure of SweepChange
-    double depth = 0;                ///< overlap of its contacts (mean square), as a multiple of what is allowed
-    double safe_way = 0;             ///< nothing may get deeper into another body in a step by more [m]
+    /// How its contacts moved before the step's gravity, along their normals alone where forces pull, in the measure of
+    /// SweepChange.
+    double motion = 0;
+    double depth = 0;     ///< overlap of its contacts (mean square), as a multiple of what is allowed
+    double safe_way = 0;  ///< nothing may get deeper into another body in a step by more [m]
 };
 
 BatchKind kindOf(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies,
