@@ -76,8 +76,9 @@ TEST(Loads, ThePresetsOfTheThesisDampAlways) {
     PushedBoxes floor(Preset::thesis);
     const BodyId pushed = floor.box({0, 0, 0.1});
     floor.world.setConstantForce(pushed, {0.8 * friction * 8 * gravity, 0, 0});
-    floor.run(240);
-    EXPECT_GT(floor.world.pose(pushed).position.x(), 0.01) << "0.3 of its weight does not hold it";
+    floor.run(1);
+    // The queue gives the corners one after the other a little more than they need.
+    EXPECT_NEAR(floor.borne(pushed), 1 - floor.world.settings().sleep.damping, 0.05);
 }
 
 /// Rolling friction of 1 mm slows a ball of 0.1 m down by 5/7 of gravity's hundredth.
