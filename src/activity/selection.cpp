@@ -53,6 +53,10 @@ void Selection::begin(const SelectionInput& input) {
         chosen_.assign(input.batches.begin(), input.batches.end());
         return;
     }
+    supports_move_ = false;
+    for (BodyIndex i = 0; i < input.bodies.size() && !supports_move_; ++i) {
+        supports_move_ = input.bodies.isFixed(i) && !isAtRest(input.bodies, i);
+    }
     part_.assign(input.bodies.size(), Part::free);
     held_.assign(input.bodies.size(), 0);
     index_of_.resize(input.bodies.size(), none);
@@ -82,7 +86,9 @@ Selection::Choice Selection::choiceOf(const BatchView& batch) const {
     const bool all = sleeping == batch.bodies.size();
     const bool some = input_->selecting == Selecting::awake_parts && sleeping > 0 && input_->wake_speed > 0;
     if (!all && !some) return Choice::whole;
-    if (!hasStillSupports(batch, input_->contacts, bodies()) || !hasStillAnchors(batch, bodies())) return Choice::whole;
+    const bool still =
+        !supports_move_ || (hasStillSupports(batch, input_->contacts, bodies()) && hasStillAnchors(batch, bodies()));
+    if (!still) return Choice::whole;
     return all ? Choice::none : Choice::part;
 }
 

@@ -227,11 +227,10 @@ void findTooDeep(const WaysInput& input, const Flights& flights, std::vector<std
     const BodyStorage& b = input.bodies;
     forPairs(input, found, [&](const ContactPair& pair, std::vector<TooDeep>& part) {
         if (!flights.far && !pair.touches()) return;
-        const double r_min = std::min(b.r_min[pair.a], b.r_min[pair.b]);
-        const double most = most_flown_overlap * input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
         const bool deep = std::ranges::any_of(contactsOf(input, pair), &isDeeperThanFlown<Contact>);
-        const bool fast = flights.far && flownPast(b, flights, pair) > r_min;
+        const bool fast = flights.far && flownPast(b, flights, pair) > std::min(b.r_min[pair.a], b.r_min[pair.b]);
         if ((!deep && !fast) || !mayGoBack(input, pair)) return;
+        const double most = most_flown_overlap * input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
         const PairOnWay on_way(input, pair);
         const double flown = partFor(on_way, most, fast);
         if (flown < on_way.part()) part.push_back({pair, flown});

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "batches/batch_motion.h"
 #include "body/roundness.h"
 #include "math/tolerances.h"
 #include "world/division.h"
@@ -70,36 +69,43 @@ double timeOf(const BodyStorage& bodies, const Contact& contact, double time) {
     return passing > 0 ? std::min(time, most_passed * extent / passing) : time;
 }
 
-/// Whether bodies move so little in a step that no two of them, wherever they touch, ask for a shorter part. Most steps
-/// are so, and there are fewer bodies than contacts.
-bool allMoveLittle(const BodyStorage& bodies, double step) {
+/// Finds the bodies that move so far in a step that they may ask for a shorter part where they touch. Two others never
+/// do. In most steps there are none, and there are fewer bodies than contacts. @param fast out: 1 for them
+/// @return whether there are any
+bool findFast(const BodyStorage& bodies, double step, std::vector<std::uint8_t>& fast) {
     double smallest = std::numeric_limits<double>::infinity();
-    double way = 0;
-    double bend = 0;
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (bodies.kind[i] == BodyKind::hole) continue;
-        smallest = std::min(smallest, bodies.r_min[i]);
-        const double turn = bodies.w[i].isZero(0) ? 0 : step * bodies.w[i].norm() * bodies.r_max[i];
-        way = std::max(way, step * bodies.v[i].norm() + turn);
-        if (turn > 0) bend = std::max(bend, turn * turn / (2 * bodies.r_max[i]));
+        if (bodies.kind[i] != BodyKind::hole) smallest = std::min(smallest, bodies.r_min[i]);
     }
     // Contacts that are foreseen are off a body by no more than what others move: by less than its outer radius.
-    return 2 * way <= surely_below * most_passed * 2 * smallest && 2 * bend <= surely_below * most_bent * 2 * smallest;
+    const double passed = surely_below * most_passed * smallest;
+    const double bent = surely_below * most_bent * smallest;
+    fast.assign(bodies.slots(), 0);
+    bool any = false;
+    for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        if (bodies.kind[i] == BodyKind::hole) continue;
+        const double turn = bodies.w[i].isZero(0) ? 0 : step * bodies.w[i].norm() * bodies.r_max[i];
+        const double way = step * bodies.v[i].norm() + turn;
+        const double bend = turn > 0 ? turn * turn / (2 * bodies.r_max[i]) : 0;
+        if (way <= passed && bend <= bent) continue;
+        fast[i] = 1;
+        any = true;
+    }
+    return any;
 }
 
 /// How long the next part may be, by the contacts there are and how their bodies move [units].
 int wantedUnits(WorldState& world) {
-    const BodyState bodies = world.bodies.state();
     std::vector<double>& shortest = world.data.shortest_of;
+    const std::vector<std::uint8_t>& fast = world.data.fast;
     const double step = world.settings.timeStep();
-    if (allMoveLittle(world.bodies, step)) return leastOnAny(world, step_units);
+    if (!findFast(world.bodies, step, world.data.fast)) return leastOnAny(world, step_units);
     shortest.assign(static_cast<std::size_t>(world.executor.threads()), step);
     world.executor.forBlocks(world.data.contacts.size(), [&](std::size_t begin, std::size_t end, int thread) {
         double& least = shortest[static_cast<std::size_t>(thread)];
         for (std::size_t i = begin; i < end; ++i) {
             const Contact& contact = world.data.contacts[i];
-            if (isAtRest(bodies, contact.a) && isAtRest(bodies, contact.b)) continue;
-            least = timeOf(world.bodies, contact, least);
+            if ((fast[contact.a] | fast[contact.b]) != 0) least = timeOf(world.bodies, contact, least);
         }
     });
     const double time = *std::ranges::min_element(shortest);

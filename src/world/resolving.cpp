@@ -375,7 +375,7 @@ void findBounced(const WorldState& world, const BodyState& bodies, VelocitiesBef
     earlier.v = before.forced_v;
     earlier.w = before.w;
     for (const Contact& contact : world.data.contacts) {
-        if (areFixedOrAsleep(contact, bodies)) continue;
+        if (contact.restitution == 0 || areFixedOrAsleep(contact, bodies)) continue;
         const double kept = contact.restitution * contact.restitution;
         for (const BodyIndex i : {contact.a, contact.b}) {
             if (bodies.isFixed(i)) continue;

@@ -119,6 +119,7 @@ struct StepData {
     std::vector<std::uint8_t> back;              ///< detection: [slots] kept memory
     std::vector<std::uint8_t> stopped;           ///< detection: [slots] 1 = went back; empty = nobody did
     std::vector<double> shortest_of;             ///< detection: [threads] kept memory
+    std::vector<std::uint8_t> fast;              ///< [slots] 1 = where it touches others, parts may have to be shorter
     double fastest = 0;                      ///< detection: how fast bodies may be that are struck in the step [m/s]
     std::vector<Vec3> surface;               ///< velocities: [slots] of fixed bodies' surfaces [m/s, W]; or empty
     std::vector<Carried> carried;            ///< velocities: [slots] by a moving law that their batch touches; or empty
