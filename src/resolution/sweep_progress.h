@@ -41,15 +41,18 @@ class SweepProgress {
     /// Whether there is a last direction.
     bool hasDirection() const { return gradient_ != 0; }
     double gradient() const { return gradient_; }
-    /// How much of the last direction is added after a sweep.
+    /// How much of the last direction is added after a sweep. It is given up only where sweeps clearly diverge: what
+    /// begins to slide or to part lets one sweep change more than the last, and the way so far is still a good one.
     double beta(const SweepChange& change) const {
-        return gradient_ > 0 && change.squared <= gradient_ ? change.squared / gradient_ : 0;
+        return gradient_ > 0 && change.squared <= most_growth * gradient_ ? change.squared / gradient_ : 0;
     }
     /// Notes the change of a sweep that was accelerated.
     void advance(const SweepChange& change) { gradient_ = change.squared; }
     void forgetDirection() { gradient_ = 0; }
 
   private:
+    /// A direction is kept while the squared change is at most this multiple of the last one.
+    static constexpr double most_growth = 1.5;
     /// How much less a sweep changes than the one before it: what is assumed after the second sweep, since the first
     /// one also changes what no other contact has a part in, and the bounds within which later ones are believed.
     /// Sweeps that seem not to converge at all count as slow ones.

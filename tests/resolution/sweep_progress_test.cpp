@@ -37,6 +37,15 @@ TEST(SweepProgress, DoesNotTakeOneSweepThatChangesLittleForTheEnd) {
     EXPECT_EQ(sweepsUntilSteady(plan, {1, 0.5, 0.45, 0.43, 0.1, 0.05}), 6);
 }
 
+TEST(SweepProgress, KeepsItsDirectionUnlessSweepsDiverge) {
+    SweepProgress progress(plan);
+    EXPECT_EQ(progress.beta({.squared = 1}), 0) << "there is none yet";
+    progress.advance({.squared = 1});
+    EXPECT_EQ(progress.beta({.squared = 0.25}), 0.25);
+    EXPECT_EQ(progress.beta({.squared = 1.25}), 1.25) << "grown for once";
+    EXPECT_EQ(progress.beta({.squared = 2}), 0);
+}
+
 TEST(SweepProgress, GoesOnWhereSweepsChangeMoreAndMore) {
     EXPECT_EQ(sweepsUntilSteady(plan, {0.2, 0.3, 0.4, 0.5, 0.6}), 0);
 }

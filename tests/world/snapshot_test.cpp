@@ -27,6 +27,9 @@ class Pile {
         world_.setEventLevel(EventLevel::all);
         world_.addBody({.shape = HalfSpace{}, .material = steel_, .fixed = true, .name = "floor"});
         for (int i = 0; i < 60; ++i) add(i);
+        // Falls asleep whatever the others do.
+        world_.addBody(
+            {.shape = Box{Vec3(0.2, 0.2, 0.2)}, .material = oak_, .pose = {Vec3(3, 3, 0.1), Quat::Identity()}});
         const std::vector<BodyId> ids = world_.bodies();
         world_.addSpring({.a = ids[1], .b = ids[2], .stiffness = 20, .damping = 1, .rest_length = 0.2});
         world_.addSpring({.a = ids[3], .anchor_b = Vec3(0, 0, 1), .stiffness = 20, .damping = 1, .rest_length = 0.2});
