@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/half_space.h"
 #include "geometry/surface_data.h"
@@ -103,13 +104,20 @@ std::optional<ClosestPoints> closestOfParts(const Placed& a, const Placed& b, do
     ConvexTriangle triangle_b;
     const Convex convex_a = coreOf(a, origin, triangle_a);
     const Convex convex_b = coreOf(b, origin, triangle_b);
-    Separation found;
+    const double rounding = convex_a.rounding() + convex_b.rounding();
     // A little farther, so that rounding on the way to the distance does not decide what is within the limit.
-    const double farthest = (limit + convex_a.rounding() + convex_b.rounding()) * (1 + 1e-9);
-    if (!separate(convex_a, convex_b, farthest, found)) return {};
+    const auto isWithin = [&](double distance, Separation& separation) {
+        return separate(convex_a, convex_b, (distance + rounding) * (1 + 1e-9), separation);
+    };
+    Separation found;
+    if (!isWithin(limit, found)) return {};
     const Vec3 on_a = origin + found.on_a + convex_a.rounding() * found.normal;
     const Vec3 on_b = origin + found.on_b - convex_b.rounding() * found.normal;
-    const double distance = found.distance - convex_a.rounding() - convex_b.rounding();
+    double distance = found.distance - convex_a.rounding() - convex_b.rounding();
+    // A distance of less than rounding tells may come out as an overlap; whether they overlap is decided by a search
+    // for nothing farther, in all questions alike.
+    Separation touching;
+    if (limit > 0 && distance <= 0 && !isWithin(0, touching)) distance = std::numeric_limits<double>::min();
     return within({distance, on_a, on_b, -found.normal, 0, 0}, limit);
 }
 

@@ -85,6 +85,17 @@ TEST(ClosestPoints, OfCompoundsAreThoseOfTheirClosestParts) {
     }
 }
 
+TEST(ClosestPoints, AreApartExactlyWhereTheShapesDoNotOverlap) {
+    // A grain 10⁻¹² m off the rim of a disc, which is less than rounding tells of places 890 m away.
+    const Shape disc = Cylinder{890.67018749192357, 6.7076345221139493e-06};
+    const Shape grain = Sphere{1e-6};
+    const Pose beside{Vec3(4.3963566413216249e-05, -890.67018849192357, 0), Quat::Identity()};
+    EXPECT_FALSE(overlap(disc, Pose{}, grain, beside));
+    EXPECT_GT(closestPoints(disc, Pose{}, grain, beside).distance, 0);
+    EXPECT_GT(closestPoints(grain, beside, disc, Pose{}).distance, 0);
+    EXPECT_LT(closestPoints(disc, Pose{}, grain, beside).distance, 1e-8);
+}
+
 TEST(ShapeCast, StopsWhereTheShapesBeginToTouch) {
     Random random(23);
     int hits = 0;
