@@ -10,6 +10,7 @@
 #include "bench_thesis/series.h"
 #include "bench_thesis/store.h"
 #include "bench_thesis/thesis_settings.h"
+#include "temporary_folder.h"
 
 namespace cairn::thesis {
 namespace {
@@ -18,15 +19,7 @@ namespace fs = std::filesystem;
 
 class ThesisFolder : public ::testing::Test {
   protected:
-    void SetUp() override {
-        const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-        folder = fs::path(::testing::TempDir()) / (std::string("bench_thesis_") + test->name());
-        fs::remove_all(folder);
-        fs::create_directories(folder);
-    }
-    void TearDown() override { fs::remove_all(folder); }
-
-    fs::path folder;
+    test::TemporaryFolder folder;
 };
 
 Experiment constantExperiment(const std::string& key, int* runs) {
@@ -175,7 +168,7 @@ TEST_F(ThesisFolder, RefusesAFileThatIsNoResultsFile) {
 
 TEST_F(ThesisFolder, GoesOnWhereItWasInterrupted) {
     BenchOptions options;
-    options.out = folder;
+    options.out = folder.path();
     options.only = {"5.6"};
     options.extent = Extent::quick;
     std::vector<std::string> begun;
@@ -202,7 +195,7 @@ TEST_F(ThesisFolder, GoesOnWhereItWasInterrupted) {
 
 TEST_F(ThesisFolder, ReportsOnlyWhatWasMeasured) {
     BenchOptions options;
-    options.out = folder;
+    options.out = folder.path();
     options.only = {"5.6"};
     options.extent = Extent::quick;
     runBench(options);
@@ -214,7 +207,7 @@ TEST_F(ThesisFolder, ReportsOnlyWhatWasMeasured) {
 
 TEST_F(ThesisFolder, RefusesASectionThatTheThesisDoesNotHave) {
     BenchOptions options;
-    options.out = folder;
+    options.out = folder.path();
     options.only = {"5.7"};
     try {
         runBench(options);
@@ -226,7 +219,7 @@ TEST_F(ThesisFolder, RefusesASectionThatTheThesisDoesNotHave) {
 
 TEST_F(ThesisFolder, DrawsPicturesOnceAndSaysWhyTheyAreMissing) {
     BenchOptions options;
-    options.out = folder;
+    options.out = folder.path();
     options.only = {"5.6"};
     options.extent = Extent::quick;
     int drawn = 0;

@@ -2,31 +2,20 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <fstream>
 #include <iterator>
 
 #include "cli/process.h"
+#include "temporary_folder.h"
 
 namespace cairn::test {
 
 class CommandLine : public ::testing::Test {
-  public:
-    CommandLine() {
-        std::string name = (std::filesystem::temp_directory_path() / "cairn-cli-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
-        folder_ = name;
-    }
-    ~CommandLine() override {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-    }
-
   protected:
-    const std::filesystem::path& folder() const { return folder_; }
+    const std::filesystem::path& folder() const { return folder_.path(); }
     std::filesystem::path file(const std::string& name) const { return folder_ / name; }
-    Finished cairn(const std::vector<std::string>& arguments) const { return runProgram(folder_, arguments); }
+    Finished cairn(const std::vector<std::string>& arguments) const { return runProgram(folder(), arguments); }
 
     /// Expects the exit code for wrong use, a message with these parts, and nothing else printed.
     void expectWrongUse(const std::vector<std::string>& arguments, const std::vector<std::string>& parts) const {
@@ -46,7 +35,7 @@ class CommandLine : public ::testing::Test {
     void write(const std::string& name, const std::string& text) const { std::ofstream(file(name)) << text; }
 
   private:
-    std::filesystem::path folder_;
+    TemporaryFolder folder_;
 };
 
 }  // namespace cairn::test

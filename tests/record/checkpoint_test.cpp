@@ -14,27 +14,17 @@
 #include <thread>
 
 #include "record/atomic_file.h"
+#include "temporary_folder.h"
 
 namespace cairn {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that is removed with what is in it.
 class Checkpoint : public testing::Test {
   protected:
-    Checkpoint() {
-        std::string name = (fs::temp_directory_path() / "cairn-checkpoint-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) throw IoError("no temporary folder");
-        folder_ = name;
-        file_ = folder_ / "run.checkpoint";
-    }
-    ~Checkpoint() override {
-        std::error_code ignored;
-        fs::remove_all(folder_, ignored);
-    }
-
-    fs::path folder_, file_;
+    test::TemporaryFolder folder_;
+    fs::path file_ = folder_ / "run.checkpoint";
 };
 
 SceneRun runOf(const char* name, int steps) {
@@ -65,7 +55,7 @@ TEST_F(Checkpoint, IsTheRunAndReplacesTheOlderOne) {
     run.step();
     copy.step();
     EXPECT_EQ(copy.world().stateHash(), run.world().stateHash());
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "nothing else is left";
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1) << "nothing else is left";
 }
 
 TEST_F(Checkpoint, UnwritablePlacesAreNamed) {
@@ -74,7 +64,7 @@ TEST_F(Checkpoint, UnwritablePlacesAreNamed) {
     EXPECT_NE(messageOf<IoError>([&] { writeCheckpoint(run, nowhere); }).find("No such file"), std::string::npos);
     fs::create_directory(file_);
     EXPECT_NE(messageOf<IoError>([&] { writeCheckpoint(run, file_); }).find(file_.string()), std::string::npos);
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "the partial file is removed";
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1) << "the partial file is removed";
     EXPECT_NE(messageOf<IoError>([&] { readCheckpoint(file_); }).find("is not a file"), std::string::npos);
     EXPECT_NE(messageOf<IoError>([&] { readCheckpoint(nowhere); }).find("No such file"), std::string::npos);
 }
@@ -96,7 +86,7 @@ TEST_F(Checkpoint, AFullDiskKeepsTheOlderOne) {
     waitpid(child, &status, 0);
     EXPECT_EQ(status, 0);
     EXPECT_EQ(readCheckpoint(file_).world().stateHash(), run.world().stateHash());
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "the partial file is removed";
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1) << "the partial file is removed";
 }
 
 TEST_F(Checkpoint, AKillInTheMiddleLeavesAWholeOne) {

@@ -1,8 +1,7 @@
-/// @file A small scene with made-up frames, and a folder that goes away.
+/// @file A small scene with made-up frames.
 #pragma once
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <cmath>
 #include <filesystem>
@@ -12,29 +11,9 @@
 #include <vector>
 
 #include "cairn/recording.h"
+#include "temporary_folder.h"
 
 namespace cairn::test {
-
-/// A folder for the files of a test.
-class TemporaryFolder {
-  public:
-    TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "cairn-test-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) throw IoError("no temporary folder: " + name);
-        path_ = name;
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 /// A plane and one body of each other shape.
 inline Scene smallScene() {

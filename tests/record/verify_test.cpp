@@ -1,6 +1,5 @@
 /// A recording proves that a run can be repeated, or tells where it was not.
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "cairn/recording.h"
+#include "temporary_folder.h"
 
 namespace cairn {
 namespace {
@@ -17,16 +17,6 @@ namespace fs = std::filesystem;
 
 class Verify : public testing::Test {
   protected:
-    Verify() {
-        std::string name = (fs::temp_directory_path() / "cairn-verify-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) throw IoError("no temporary folder");
-        folder_ = name;
-    }
-    ~Verify() override {
-        std::error_code ignored;
-        fs::remove_all(folder_, ignored);
-    }
-
     /// Records a run with events. @param tamper changes the run, or the frame, behind the recording's back
     template <class Tamper>
     fs::path record(std::size_t hashes, const Tamper& tamper) {
@@ -51,7 +41,7 @@ class Verify : public testing::Test {
     }
 
   private:
-    fs::path folder_;
+    test::TemporaryFolder folder_;
 };
 
 constexpr auto honest = [](int, SceneRun&, Frame&) {};

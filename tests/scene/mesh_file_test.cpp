@@ -8,6 +8,7 @@
 
 #include "cairn/mesh_file.h"
 #include "cairn/scene.h"
+#include "temporary_folder.h"
 
 namespace cairn {
 namespace {
@@ -209,8 +210,7 @@ TEST(SurfaceScene, IsReadAndWrittenAsTheSame) {
 }
 
 TEST(SurfaceScene, FilesStandBesideTheScene) {
-    const auto folder = std::filesystem::path(::testing::TempDir()) / "cairn_surface_scene";
-    std::filesystem::create_directories(folder);
+    const test::TemporaryFolder folder;
     std::ofstream(folder / "ground.obj") << obj;
     std::ofstream(folder / "ground.png", std::ios::binary) << picture(PNG_FORMAT_LINEAR_Y);
     std::ofstream(folder / "a.json") << sceneWith(R"({"type":"mesh","file":"ground.obj","scale":[1,2,3]})");
@@ -220,7 +220,6 @@ TEST(SurfaceScene, FilesStandBesideTheScene) {
     EXPECT_EQ(std::get<HeightField>(readScene(folder / "b.json").bodies[0].shape).heights()[5], 5);
     SceneRun run(readScene(folder / "a.json"), Settings::preset(Preset::performance));
     run.step();
-    std::filesystem::remove_all(folder);
 }
 
 TEST(SurfaceScene, SaysWhatIsWrong) {

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "scene_testing.h"
+#include "temporary_folder.h"
 
 namespace cairn {
 namespace {
@@ -17,13 +18,6 @@ using testing::sceneWithBody;
 /// A scene in a folder of its own, with a table beside it.
 class MotionFiles : public ::testing::Test {
   protected:
-    void SetUp() override {
-        folder_ = fs::temp_directory_path() /
-                  ("cairn_motion_files_" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()));
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     void write(const std::string& table) const { std::ofstream(folder_ / "table.csv") << table; }
     Scene read(const std::string& motion) const {
         const std::string body =
@@ -40,7 +34,7 @@ class MotionFiles : public ::testing::Test {
     }
     static const TableMotion& tableOf(const Scene& scene) { return std::get<TableMotion>(*scene.bodies.back().motion); }
 
-    fs::path folder_;
+    test::TemporaryFolder folder_;
 };
 
 TEST_F(MotionFiles, HoldTimesDisplacementsAndTurns) {

@@ -7,6 +7,7 @@
 
 #include "scene/scene_survey.h"
 #include "scene_testing.h"
+#include "temporary_folder.h"
 
 namespace cairn {
 namespace {
@@ -17,18 +18,14 @@ using testing::sceneText;
 /// A file that is removed with it.
 class SceneFile {
   public:
-    explicit SceneFile(const std::string& text) : path_(::testing::TempDir() + "cairn_scene_source.json") {
-        write(text);
-    }
-    ~SceneFile() { std::filesystem::remove(path_); }
-    SceneFile(const SceneFile&) = delete;
-    SceneFile& operator=(const SceneFile&) = delete;
+    explicit SceneFile(const std::string& text) { write(text); }
 
     const std::filesystem::path& path() const { return path_; }
     void write(const std::string& text) const { std::ofstream(path_, std::ios::binary) << text; }
 
   private:
-    std::filesystem::path path_;
+    test::TemporaryFolder folder_;
+    std::filesystem::path path_ = folder_ / "scene.json";
 };
 
 std::string ballText(int number) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "scene_testing.h"
+#include "temporary_folder.h"
 
 namespace cairn {
 namespace {
@@ -101,7 +102,6 @@ TEST(SceneTemplates, SaysWhatIsWrong) {
 class SceneIncludes : public ::testing::Test {
   protected:
     void SetUp() override { std::filesystem::create_directories(folder_ / "parts"); }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
     std::string write(const std::string& name, const std::string& text) const {
         std::ofstream(folder_ / name) << text;
         return (folder_ / name).string();
@@ -110,7 +110,7 @@ class SceneIncludes : public ::testing::Test {
         return messageOf([&] { readScene(file); });
     }
 
-    std::filesystem::path folder_ = std::filesystem::temp_directory_path() / "cairn_scene_includes";
+    test::TemporaryFolder folder_;
 };
 
 TEST_F(SceneIncludes, TakeBodiesMaterialsAndContactsOfAnotherFile) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "temporary_folder.h"
+
 namespace cairn::validation {
 namespace {
 
@@ -21,21 +23,14 @@ Settings settingsOfTosses() {
     return settings;
 }
 
-/// A file in the folder of the tests, removed at the end.
+/// A file in a folder of its own, removed at the end.
 class File {
   public:
-    File(const std::string& name, const std::string& text)
-        : path_(std::filesystem::temp_directory_path() /
-                (name.substr(0, name.find('.')) + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
-                 name.substr(name.find('.')))) {
-        std::ofstream(path_) << text;
-    }
-    ~File() { std::filesystem::remove(path_); }
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
+    File(const std::string& name, const std::string& text) : path_(folder_ / name) { std::ofstream(path_) << text; }
     const std::filesystem::path& path() const { return path_; }
 
   private:
+    test::TemporaryFolder folder_;
     std::filesystem::path path_;
 };
 

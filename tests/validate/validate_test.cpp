@@ -8,10 +8,10 @@
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <set>
 
 #include "cairn/types.h"
+#include "temporary_folder.h"
 
 namespace cairn::validation {
 namespace {
@@ -78,21 +78,6 @@ TEST(Validation, NamesEveryCaseOnce) {
     EXPECT_FALSE(names.empty());
 }
 
-/// A folder of the tests, removed at the end.
-class Folder {
-  public:
-    Folder() : path_(std::filesystem::temp_directory_path() / ("validation" + std::to_string(std::random_device{}()))) {
-        std::filesystem::create_directories(path_);
-    }
-    ~Folder() { std::filesystem::remove_all(path_); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
-
 std::vector<std::string> namesIn(const std::filesystem::path& file) {
     std::ifstream stream(file);
     std::vector<std::string> names;
@@ -102,7 +87,7 @@ std::vector<std::string> namesIn(const std::filesystem::path& file) {
 }
 
 TEST(Validation, OfSingleCasesKeepsWhatIsStoredOfTheOthers) {
-    const Folder folder;
+    const test::TemporaryFolder folder;
     ValidateOptions options;
     options.out = folder.path();
     options.extent = Extent::quick;
@@ -126,7 +111,7 @@ std::string textOf(const std::filesystem::path& file) {
 }
 
 TEST(Validation, WritesAnOverviewThatLeadsToAPageOfEachCase) {
-    const Folder folder;
+    const test::TemporaryFolder folder;
     ValidateOptions options;
     options.out = folder.path();
     options.extent = Extent::quick;

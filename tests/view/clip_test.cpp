@@ -6,6 +6,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "temporary_folder.h"
 #include "view/gzip.h"
 #include "view/html_export.h"
 
@@ -79,10 +80,8 @@ class ClipReader {
 
 class Clip : public testing::Test {
   protected:
-    static std::filesystem::path record(const Scene& scene, int steps, const RecordingOptions& options = {}) {
-        const auto file = std::filesystem::temp_directory_path() /
-                          ("cairn-clip-" + std::to_string(::getpid()) + "-" +
-                           testing::UnitTest::GetInstance()->current_test_info()->name() + ".h5");
+    std::filesystem::path record(const Scene& scene, int steps, const RecordingOptions& options = {}) {
+        const auto file = folder_ / "run.h5";
         const Settings settings = settingsFor(scene);
         SceneRun run(scene, settings);
         RecordingWriter writer(file, scene, settings, options);
@@ -94,6 +93,9 @@ class Clip : public testing::Test {
         writer.close();
         return file;
     }
+
+  private:
+    test::TemporaryFolder folder_;
 };
 
 TEST_F(Clip, KeepsPosesMotionAndFlagsOfEveryFrame) {
@@ -133,7 +135,6 @@ TEST_F(Clip, KeepsPosesMotionAndFlagsOfEveryFrame) {
             EXPECT_EQ((flags & 4U) != 0, recording.info().scene.bodies[body].fixed);
         }
     }
-    std::filesystem::remove(file);
 }
 
 TEST_F(Clip, MarksRemovedBodies) {
@@ -145,7 +146,6 @@ TEST_F(Clip, MarksRemovedBodies) {
     const ClipReader clip(makeClip(recording));
     EXPECT_EQ(clip.streams[1][last] & 1, 1);
     EXPECT_EQ(clip.streams[1][12 * scene.bodies.size() + last] & 1, 0);
-    std::filesystem::remove(file);
 }
 
 /// A place of the header: in the frame of a body, or of the world.
@@ -171,7 +171,6 @@ TEST_F(Clip, PlacesJointsByTheirBodies) {
         const Vec3 gap = placed(joint["a"], joint["anchorA"], frame) - placed(joint["b"], joint["anchorB"], frame);
         EXPECT_LT(gap.norm(), 1e-5);
     }
-    std::filesystem::remove(file);
 }
 
 TEST_F(Clip, ThePageHoldsTheClip) {
@@ -181,8 +180,6 @@ TEST_F(Clip, ThePageHoldsTheClip) {
     EXPECT_GT(std::filesystem::file_size(html), 300000U);
     EXPECT_LT(std::filesystem::file_size(html), 2000000U);
     EXPECT_THROW(exportHtml(RecordingReader(file), "/nonexistent/folder/a.html"), IoError);
-    std::filesystem::remove(html);
-    std::filesystem::remove(file);
 }
 
 TEST_F(Clip, HasContactsSensorsAndLaws) {
@@ -196,7 +193,6 @@ TEST_F(Clip, HasContactsSensorsAndLaws) {
                    "c");
     const auto file = record(scene, 1, {.contacts = true});
     const ClipReader clip(makeClip(RecordingReader(file)));
-    std::filesystem::remove(file);
     EXPECT_TRUE(clip.header.at("contacts").get<bool>());
     ASSERT_EQ(clip.streams[7].size(), 4U + 4 + 48) << "none in the first frame, one in the second";
     std::array<std::uint32_t, 4> begin{};
