@@ -37,6 +37,7 @@ void spreadOverJoints(const BatchView& batch, const IsOther& is_other, const IsS
 
 /// Whether no fixed body that moves is at the other end of a joint.
 bool hasStillAnchors(const BatchView& batch, const BodyState& bodies) {
+    if (!bodies.supports_move) return true;
     const auto holds = [&](BodyIndex i) { return i == Joint::world || !bodies.isFixed(i) || isAtRest(bodies, i); };
     return std::ranges::all_of(batch.joints, [&](const JointBlock& j) { return holds(j.a) && holds(j.b); });
 }
@@ -52,10 +53,6 @@ void Selection::begin(const SelectionInput& input) {
     if (input.selecting == Selecting::everything || !anybody_sleeps_) {
         chosen_.assign(input.batches.begin(), input.batches.end());
         return;
-    }
-    supports_move_ = false;
-    for (BodyIndex i = 0; i < input.bodies.size() && !supports_move_; ++i) {
-        supports_move_ = input.bodies.isFixed(i) && !isAtRest(input.bodies, i);
     }
     part_.assign(input.bodies.size(), Part::free);
     held_.assign(input.bodies.size(), 0);
@@ -86,9 +83,7 @@ Selection::Choice Selection::choiceOf(const BatchView& batch) const {
     const bool all = sleeping == batch.bodies.size();
     const bool some = input_->selecting == Selecting::awake_parts && sleeping > 0 && input_->wake_speed > 0;
     if (!all && !some) return Choice::whole;
-    const bool still =
-        !supports_move_ || (hasStillSupports(batch, input_->contacts, bodies()) && hasStillAnchors(batch, bodies()));
-    if (!still) return Choice::whole;
+    if (!hasStillSupports(batch, input_->contacts, bodies()) || !hasStillAnchors(batch, bodies())) return Choice::whole;
     return all ? Choice::none : Choice::part;
 }
 

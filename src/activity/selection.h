@@ -116,7 +116,6 @@ class Selection {
 
     std::optional<SelectionInput> input_;
     bool anybody_sleeps_ = false;
-    bool supports_move_ = false;     ///< some fixed body does
     std::vector<Choice> choice_;     ///< [batches]
     std::vector<BatchView> chosen_;  ///< ascending by their batches
     std::vector<PartOfBatch> parts_;

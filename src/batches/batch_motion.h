@@ -42,8 +42,17 @@ inline double normalVelocity(const Contact& contact, const BodyState& bodies) {
     return contact.normal.dot(relativeVelocity(contact, bodies));
 }
 
+/// Whether some fixed body, or its surface, moves.
+inline bool doSupportsMove(const BodyState& bodies) {
+    for (BodyIndex i = 0; i < bodies.size(); ++i) {
+        if (bodies.isFixed(i) && !isAtRest(bodies, i)) return true;
+    }
+    return false;
+}
+
 /// Whether no fixed body that moves touches the batch.
 inline bool hasStillSupports(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies) {
+    if (!bodies.supports_move) return true;
     const auto holds = [&](BodyIndex i) { return !bodies.isFixed(i) || isAtRest(bodies, i); };
     return std::ranges::all_of(batch.contacts,
                                [&](std::uint32_t i) { return holds(contacts[i].a) && holds(contacts[i].b); });

@@ -37,6 +37,8 @@ struct BodyState {
     Vec3 damped_fall = Vec3::Zero(), whole_fall = Vec3::Zero();
     /// How the surfaces of fixed bodies move over them [slots] [m/s, W]; empty = none does.
     std::span<const Vec3> surface{};
+    /// Whether one of the fixed bodies, or its surface, may move.
+    bool supports_move = true;
     /// Who of those that can move is held still in this step [slots]; empty = nobody.
     std::span<const std::uint8_t> held{};
     /// Subset of the shock propagation; empty unless the step is traced.

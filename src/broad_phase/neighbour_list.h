@@ -22,6 +22,10 @@ struct ContactPair : BodyPair {
 
     bool isTested() const { return count != untested; }
     bool touches() const { return count != 0 && isTested(); }
+    /// Its own. @param contacts of the last detection
+    std::span<const Contact> contactsIn(std::span<const Contact> contacts) const {
+        return touches() ? contacts.subspan(first, count) : std::span<const Contact>();
+    }
 };
 
 /// What the list depends on; one entry per slot.

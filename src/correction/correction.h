@@ -44,7 +44,7 @@ class Correction {
     virtual CorrectionCounts correct(const BatchView& batch, const ContactsOfBodies& contacts_of,
                                      std::span<Contact> contacts, const BodyState& bodies, double remaining) = 0;
     /// Does the rest for one batch when it is known how far its bodies may go; they may be back where they were, or on
-    /// the way there. @return what was not counted yet
+    /// the way there. @pre correct() found contacts that are too deep @return what was not counted yet
     virtual CorrectionCounts settle(const BatchView&, std::span<Contact>, const BodyState&, const PosesBefore&) {
         return {};
     }

@@ -58,7 +58,6 @@ CorrectionCounts PositionSweeps::settle(const BatchView& batch, std::span<Contac
                                         const PosesBefore& before) {
     CorrectionCounts counts;
     const auto isDeep = [&](std::uint32_t index) { return contacts[index].isTooDeep(); };
-    if (std::ranges::none_of(batch.contacts, isDeep)) return counts;
     counts.displaced = findMoved(batch, bodies, before);
     const auto fixed = static_cast<std::uint32_t>(batch.bodies.size());
     const auto shareOf = [&](BodyIndex i) -> Share& { return shares_[bodies.isFixed(i) ? fixed : bodies.place[i]]; };

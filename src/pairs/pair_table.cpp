@@ -338,7 +338,7 @@ void PairTable::followPairs(const PairsInput& input, const DetectionRange& range
         const ContactPair& pair = pairs()[n];
         if ((struck_[pair.a] | struck_[pair.b]) == 0 || !ahead_[pair.a].way.overlaps(ahead_[pair.b].way)) continue;
         if (!mayTouch(bodies, input.excluded, pair)) continue;
-        const auto known = pair.touches() ? contacts.subspan(pair.first, pair.count) : std::span<const Contact>();
+        const auto known = pair.contactsIn(contacts);
         const std::size_t begin = part.found.size();
         findMissing(bodies, pair, n, range, {bodies, range, pair, ahead_}, manifold, known, part);
         if (part.found.size() == begin) continue;
@@ -386,7 +386,7 @@ void PairTable::detectPair(const PairsInput& input, std::span<const Contact> las
     if (known) {
         part.add(pair.first, pair.count, true);
     } else {
-        const auto before = pair.touches() ? last.subspan(pair.first, pair.count) : std::span<const Contact>();
+        const auto before = pair.contactsIn(last);
         const std::size_t begin = part.found.size();
         collidePair(input.bodies, pair, range_, {input.bodies, range_, pair, ahead_}, manifold, part.found);
         inheritImpulses(input.bodies, before, std::span(part.found).subspan(begin));

@@ -12,9 +12,12 @@ namespace {
 class Motion {
   public:
     Motion(const BodyStorage& bodies, BodyIndex i)
-        : from_(bodies.detected_position[i]),
-          to_(bodies.position[i]),
-          turn_((bodies.orientation[i] * bodies.detected_orientation[i].conjugate()).toRotationMatrix()) {}
+        : from_(bodies.detected_position[i]), to_(bodies.position[i]), turn_(Mat3::Identity()) {
+        const Quat& before = bodies.detected_orientation[i];
+        const Quat& now = bodies.orientation[i];
+        // Where it did not turn the matrix of the product is the same one.
+        if (before.coeffs() != now.coeffs()) turn_ = (now * before.conjugate()).toRotationMatrix();
+    }
     Vec3 movedPoint(const Vec3& point) const { return to_ + turn_ * (point - from_); }
     Vec3 turned(const Vec3& direction) const { return turn_ * direction; }
 

@@ -181,10 +181,6 @@ void forPairs(const WaysInput& input, std::vector<std::vector<TooDeep>>& found, 
         asked_grain);
 }
 
-std::span<const Contact> contactsOf(const WaysInput& input, const ContactPair& pair) {
-    return pair.touches() ? input.contacts.subspan(pair.first, pair.count) : std::span<const Contact>();
-}
-
 bool mayGoBack(const WaysInput& input, const ContactPair& pair) {
     return pair.isTested() && (mayGoBack(input, pair.a) || mayGoBack(input, pair.b));
 }
@@ -194,7 +190,7 @@ bool mayGoBack(const WaysInput& input, const ContactPair& pair) {
 void findStuck(const WaysInput& input, std::vector<std::uint8_t>& stuck) {
     stuck.assign(input.bodies.slots(), 0);
     for (const ContactPair& pair : input.pairs) {
-        const auto contacts = contactsOf(input, pair);
+        const auto contacts = pair.contactsIn(input.contacts);
         const auto isFar = [](const Contact& c) { return c.distance < -most_grown * c.allowed_overlap; };
         if (std::ranges::none_of(contacts, isFar)) continue;
         const double before = PairOnWay(input, pair).depthAt(0);
@@ -205,29 +201,32 @@ void findStuck(const WaysInput& input, std::vector<std::uint8_t>& stuck) {
 void measureFlights(const WaysInput& input, Flights& flights) {
     const BodyStorage& b = input.bodies;
     flights.turned.resize(b.slots());
+    flights.flew.resize(b.slots());
     input.executor.forBlocks(b.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
             if (!input.back.empty() && input.back[i] == 0) continue;
             const BodyWay& way = input.ways[i];
+            flights.flew[i] = way.part > 0 ? 1 : 0;
             flights.turned[i] = way.part > 0 ? turnedWay(b, i, way.begin.orientation) : 0;
         }
     });
     if (!input.back.empty()) return;
-    double smallest = std::numeric_limits<double>::infinity();
+    flights.smallest = std::numeric_limits<double>::infinity();
     double farthest = 0;
     for (BodyIndex i = 0; i < b.slots(); ++i) {
         if (b.kind[i] == BodyKind::hole) continue;
-        smallest = std::min(smallest, b.r_min[i]);
+        flights.smallest = std::min(flights.smallest, b.r_min[i]);
         farthest = std::max(farthest, b.linear_step[i].norm() + flights.turned[i]);
     }
-    flights.far = 2 * farthest > surely_below * smallest;
+    flights.far = 2 * farthest > surely_below * flights.smallest;
 }
 
 void findTooDeep(const WaysInput& input, const Flights& flights, std::vector<std::vector<TooDeep>>& found) {
     const BodyStorage& b = input.bodies;
     forPairs(input, found, [&](const ContactPair& pair, std::vector<TooDeep>& part) {
-        if (!flights.far && !pair.touches()) return;
-        const bool deep = std::ranges::any_of(contactsOf(input, pair), &isDeeperThanFlown<Contact>);
+        // Most pairs sleep, or only are near each other.
+        if ((flights.flew[pair.a] | flights.flew[pair.b]) == 0 || (!flights.far && !pair.touches())) return;
+        const bool deep = std::ranges::any_of(pair.contactsIn(input.contacts), &isDeeperThanFlown<Contact>);
         const bool fast = flights.far && flownPast(b, flights, pair) > std::min(b.r_min[pair.a], b.r_min[pair.b]);
         if ((!deep && !fast) || !mayGoBack(input, pair)) return;
         const double most = most_flown_overlap * input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
@@ -242,14 +241,15 @@ void findPressed(const WaysInput& input, std::span<const MovedBody> moved, std::
     forPairs(input, found, [&](const ContactPair& pair, std::vector<TooDeep>& part) {
         const MovedBody& one = moved[pair.a];
         const MovedBody& other = moved[pair.b];
-        if (!(one.way + other.way > 0) || !mayGoBack(input, pair)) return;
+        if (!(one.way + other.way > 0)) return;
         const double allowed = input.range.overlapOf(b.r_min[pair.a], b.r_min[pair.b]);
         const double most = std::max({most_flown_overlap, most_shared * one.deepest, most_shared * other.deepest});
         // They are no deeper than they were by more than they moved.
         const double way = one.way + other.way + one.unsure + other.unsure;
         double deepest = way;
-        for (const Contact& contact : contactsOf(input, pair)) deepest = std::max(deepest, way - contact.distance);
-        if (!(deepest > most * allowed)) return;
+        for (const Contact& contact : pair.contactsIn(input.contacts))
+            deepest = std::max(deepest, way - contact.distance);
+        if (!(deepest > most * allowed) || !mayGoBack(input, pair)) return;
         const PairOnWay on_way(input, pair);
         const double pushed = partFor(on_way, most * allowed, false);
         if (pushed < on_way.part()) part.push_back({pair, pushed});

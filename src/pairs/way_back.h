@@ -1,6 +1,7 @@
 /// @file Motion clamping: how far bodies that flew too deep into each other have to go back.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -53,7 +54,9 @@ bool mayGoBack(const WaysInput& input, BodyIndex i);
 
 /// How far bodies flew.
 struct Flights {
-    std::vector<double> turned;  ///< [slots] turnedWay() of each [m]
+    std::vector<std::uint8_t> flew;  ///< [slots] 1 = it did, as far as is known of its way
+    std::vector<double> turned;      ///< [slots] turnedWay() of each [m]
+    double smallest = 0;             ///< inner radius of a body [m]
     bool far = false;  ///< points of two bodies may have flown past each other by more than the inner radius of one
 };
 

@@ -1,9 +1,11 @@
 #include "world/clamping.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include "math/rotation.h"
+#include "math/tolerances.h"
 
 namespace cairn {
 
@@ -49,19 +51,19 @@ Pose detectedPose(const BodyStorage& bodies, BodyIndex i) {
     return {bodies.detected_position[i], bodies.detected_orientation[i]};
 }
 
-/// Notes how far surfaces of bodies went since they were somewhere else. @return whether any did
-bool findMoved(const BodyStorage& bodies, const PosesBefore& before, std::vector<MovedBody>& moved) {
+/// Notes how far surfaces of bodies went since they were somewhere else. @return the farthest [m]; nothing if none did
+std::optional<double> findMoved(const BodyStorage& bodies, const PosesBefore& before, std::vector<MovedBody>& moved) {
     moved.assign(bodies.slots(), {});
-    bool any = false;
+    std::optional<double> farthest;
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         if (bodies.kind[i] != BodyKind::dynamic) continue;
         const bool same = bodies.position[i] == before.position[i] &&
                           bodies.orientation[i].coeffs() == before.orientation[i].coeffs();
         if (same) continue;
         moved[i].way = waySince(bodies, i, {before.position[i], before.orientation[i]});
-        any = true;
+        farthest = std::max(farthest.value_or(0), moved[i].way);
     }
-    return any;
+    return farthest;
 }
 
 /// Takes back the bodies of data.moved until none is pressed too deep into others.
@@ -173,7 +175,13 @@ void measureCorrected(WorldState& world, const DetectionRange& range) {
 void clampCompletion(WorldState& world, const DetectionRange& range, const PosesBefore& before) {
     const BodyStorage& bodies = world.bodies;
     std::vector<MovedBody>& moved = world.data.moved;
-    if (!findMoved(bodies, before, moved)) return;
+    const std::optional<double> farthest = findMoved(bodies, before, moved);
+    if (!farthest) return;
+    // Where no two were too deep, nobody was moved before, and small ways lead none too deep.
+    const double smallest = world.data.flights.smallest;
+    const double room = (most_flown_overlap - 1) * range.overlapOf(smallest, smallest);
+    const bool deep = std::ranges::find(world.data.deep, 1) != world.data.deep.end();
+    if (!deep && 4 * *farthest < surely_below * room) return;
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
         // Contacts follow what the correction turned to first order only.
         if (bodies.kind[i] == BodyKind::dynamic) moved[i].unsure = waySince(bodies, i, detectedPose(bodies, i));

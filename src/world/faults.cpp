@@ -12,16 +12,19 @@ namespace cairn {
 
 namespace {
 
-/// False for what is not a number, too: comparisons with it are false. Without branches, since it is true nearly
-/// always.
+/// False for what is not a number, too: comparisons with it are false.
 bool isWithin(const Vec3& u, double limit) {
-    return (static_cast<int>(std::abs(u.x()) <= limit) & static_cast<int>(std::abs(u.y()) <= limit) &
-            static_cast<int>(std::abs(u.z()) <= limit)) != 0;
+    return std::abs(u.x()) <= limit && std::abs(u.y()) <= limit && std::abs(u.z()) <= limit;
 }
 
 bool isSound(const BodyStorage& bodies, std::size_t i) {
+    if (!std::isfinite(bodies.orientation[i].coeffs().sum())) return false;
+    // What is short enough, as nearly all is, has no large components.
+    const double speeds = bodies.v[i].squaredNorm() + bodies.w[i].squaredNorm();
+    const double distance = bodies.position[i].squaredNorm();
+    if (speeds <= speed_limit * speed_limit && distance <= distance_limit * distance_limit) return true;
     return isWithin(bodies.v[i], speed_limit) && isWithin(bodies.w[i], speed_limit) &&
-           isWithin(bodies.position[i], distance_limit) && std::isfinite(bodies.orientation[i].coeffs().sum());
+           isWithin(bodies.position[i], distance_limit);
 }
 
 std::string describe(const BodyStorage& bodies, std::size_t i) {

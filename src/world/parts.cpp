@@ -83,11 +83,15 @@ bool findFast(const BodyStorage& bodies, double step, std::vector<std::uint8_t>&
     fast.assign(bodies.slots(), 0);
     bool any = false;
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
-        if (bodies.kind[i] == BodyKind::hole) continue;
-        const double turn = bodies.w[i].isZero(0) ? 0 : step * bodies.w[i].norm() * bodies.r_max[i];
-        const double way = step * bodies.v[i].norm() + turn;
-        const double bend = turn > 0 ? turn * turn / (2 * bodies.r_max[i]) : 0;
-        if (way <= passed && bend <= bent) continue;
+        if (bodies.kind[i] == BodyKind::hole || bodies.asleep[i] != 0) continue;
+        const double r_max = bodies.r_max[i];
+        const double squared_way = step * step * bodies.v[i].squaredNorm();
+        const double squared_turn =
+            bodies.w[i].isZero(0) ? 0 : step * step * bodies.w[i].squaredNorm() * (r_max * r_max);
+        const bool turns_much = squared_turn > 2 * r_max * bent;
+        // No root where the sum of both is surely too small.
+        const bool moves_little = 2 * (squared_way + squared_turn) <= passed * passed;
+        if (!turns_much && (moves_little || std::sqrt(squared_way) + std::sqrt(squared_turn) <= passed)) continue;
         fast[i] = 1;
         any = true;
     }
@@ -101,11 +105,13 @@ int wantedUnits(WorldState& world) {
     const double step = world.settings.timeStep();
     if (!findFast(world.bodies, step, world.data.fast)) return leastOnAny(world, step_units);
     shortest.assign(static_cast<std::size_t>(world.executor.threads()), step);
-    world.executor.forBlocks(world.data.contacts.size(), [&](std::size_t begin, std::size_t end, int thread) {
+    const std::span<const ContactPair> pairs = world.data.pairs.pairs();
+    world.executor.forBlocks(pairs.size(), [&](std::size_t begin, std::size_t end, int thread) {
         double& least = shortest[static_cast<std::size_t>(thread)];
-        for (std::size_t i = begin; i < end; ++i) {
-            const Contact& contact = world.data.contacts[i];
-            if ((fast[contact.a] | fast[contact.b]) != 0) least = timeOf(world.bodies, contact, least);
+        for (const ContactPair& pair : pairs.subspan(begin, end - begin)) {
+            if ((fast[pair.a] | fast[pair.b]) == 0) continue;
+            for (const Contact& contact : pair.contactsIn(world.data.contacts))
+                least = timeOf(world.bodies, contact, least);
         }
     });
     const double time = *std::ranges::min_element(shortest);

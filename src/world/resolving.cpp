@@ -60,10 +60,19 @@ double wayInto(const Contact& contact, const BodyState& bodies) {
     return (-normalVelocity(contact, bodies) - contact.allowed_closing) * bodies.time_step;
 }
 
-/// Whether the resolution moves neither body of a contact.
-bool areFixedOrAsleep(const Contact& contact, const BodyState& bodies) {
+/// Whether the resolution moves neither body of a contact, or of a pair.
+bool areFixedOrAsleep(const auto& pair, const BodyState& bodies) {
     const auto rests = [&](BodyIndex i) { return bodies.isFixed(i) || bodies.asleep[i] != 0; };
-    return rests(contact.a) && rests(contact.b);
+    return rests(pair.a) && rests(pair.b);
+}
+
+/// Calls visit(index) for the contacts of those of some pairs that the resolution moves.
+template <class Visit>
+void forAwake(std::span<const ContactPair> pairs, const BodyState& bodies, const Visit& visit) {
+    for (const ContactPair& pair : pairs) {
+        if (!pair.touches() || areFixedOrAsleep(pair, bodies)) continue;
+        for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) visit(i);
+    }
 }
 
 /// Whether a contact pushed bodies apart that now part faster than what only comes to rest.
@@ -243,7 +252,6 @@ void resolveLaunchedJoints(WorldState& world, BodyState& bodies) {
 
 /// Whether the bodies of a contact would get too far into each other there.
 bool closesTooFar(const Contact& contact, const BodyState& bodies) {
-    if (areFixedOrAsleep(contact, bodies)) return false;
     const double left = most_overlap * contact.allowed_overlap - std::max(0.0, -contact.distance);
     return wayInto(contact, bodies) > std::max(least_way * contact.allowed_overlap, left);
 }
@@ -253,11 +261,12 @@ void listClosing(WorldState& world, const BodyState& bodies) {
     StepData& data = world.data;
     data.closing_of.resize(static_cast<std::size_t>(world.executor.threads()));
     for (std::vector<std::uint32_t>& part : data.closing_of) part.clear();
-    world.executor.forBlocks(data.contacts.size(), [&](std::size_t begin, std::size_t end, int thread) {
+    const std::span<const ContactPair> pairs = data.pairs.pairs();
+    world.executor.forBlocks(pairs.size(), [&](std::size_t begin, std::size_t end, int thread) {
         std::vector<std::uint32_t>& part = data.closing_of[static_cast<std::size_t>(thread)];
-        for (std::size_t i = begin; i < end; ++i) {
-            if (closesTooFar(data.contacts[i], bodies)) part.push_back(static_cast<std::uint32_t>(i));
-        }
+        forAwake(pairs.subspan(begin, end - begin), bodies, [&](std::uint32_t i) {
+            if (closesTooFar(data.contacts[i], bodies)) part.push_back(i);
+        });
     });
     data.closing.clear();
     for (const std::vector<std::uint32_t>& part : data.closing_of) {
@@ -280,8 +289,10 @@ void updateClosing(WorldState& world, const BodyState& bodies) {
     data.asked.erase(std::unique(data.asked.begin(), data.asked.end()), data.asked.end());
     std::erase_if(data.closing, [&](std::uint32_t i) { return std::ranges::binary_search(data.asked, i); });
     const auto others = static_cast<std::ptrdiff_t>(data.closing.size());
-    std::ranges::copy_if(data.asked, std::back_inserter(data.closing),
-                         [&](std::uint32_t i) { return closesTooFar(data.contacts[i], bodies); });
+    std::ranges::copy_if(data.asked, std::back_inserter(data.closing), [&](std::uint32_t i) {
+        const Contact& contact = data.contacts[i];
+        return !areFixedOrAsleep(contact, bodies) && closesTooFar(contact, bodies);
+    });
     std::inplace_merge(data.closing.begin(), data.closing.begin() + others, data.closing.end());
 }
 
@@ -374,8 +385,9 @@ void findBounced(const WorldState& world, const BodyState& bodies, VelocitiesBef
     BodyState earlier = bodies;
     earlier.v = before.forced_v;
     earlier.w = before.w;
-    for (const Contact& contact : world.data.contacts) {
-        if (contact.restitution == 0 || areFixedOrAsleep(contact, bodies)) continue;
+    forAwake(world.data.pairs.pairs(), bodies, [&](std::uint32_t n) {
+        const Contact& contact = world.data.contacts[n];
+        if (contact.restitution == 0) return;
         const double kept = contact.restitution * contact.restitution;
         for (const BodyIndex i : {contact.a, contact.b}) {
             if (bodies.isFixed(i)) continue;
@@ -390,7 +402,7 @@ void findBounced(const WorldState& world, const BodyState& bodies, VelocitiesBef
             const double parting = std::max(normalVelocity(contact, bodies), -contact.restitution * closing);
             if (bounced && (1 - kept) * parting * parting < worth) before.bounced[i] = 1;
         }
-    }
+    });
 }
 
 void resolveLaunched(WorldState& world, BodyState& bodies, const PairsInput& pairs) {

@@ -138,21 +138,23 @@ void correctBatches(WorldState& world) {
     // What this lifts a body that bounces is in the account of its bounce.
     const bool touching = world.settings.resolution.restitution_speed == RestitutionSpeed::touching;
     if (!touching) bodies.acceleration = world.gravity + world.global_acceleration;
-    const auto forBatches = [&](const auto& work) {
-        data.schedule.forEach(world.executor, [&](std::uint32_t batch, int thread) {
-            const auto t = static_cast<std::size_t>(thread);
-            data.correction_counts[t].add(work(*world.corrections[t], data.views[batch]));
-        });
-    };
-    forBatches([&](Correction& correction, const BatchView& batch) {
-        return correction.correct(batch, data.contacts_of, data.contacts, bodies, remaining_penetration);
+    data.deep.resize(data.views.size());
+    data.schedule.forEach(world.executor, [&](std::uint32_t batch, int thread) {
+        const auto t = static_cast<std::size_t>(thread);
+        const CorrectionCounts counts = world.corrections[t]->correct(data.views[batch], data.contacts_of,
+                                                                      data.contacts, bodies, remaining_penetration);
+        data.correction_counts[t].add(counts);
+        data.deep[batch] = counts.penetrating > 0 ? 1 : 0;
     });
     // The thesis's goes where it goes.
     if (world.settings.correction.correction != CorrectionKind::position_sweeps) return;
+    if (std::ranges::find(data.deep, 1) == data.deep.end()) return;
     const bool moved = clampCorrection(world, rangeOf(world));
     const PosesBefore before{world.bodies.detected_position, world.bodies.detected_orientation};
-    forBatches([&](Correction& correction, const BatchView& batch) {
-        return correction.settle(batch, data.contacts, bodies, before);
+    data.schedule.forEach(world.executor, [&](std::uint32_t batch, int thread) {
+        if (data.deep[batch] == 0) return;
+        const auto t = static_cast<std::size_t>(thread);
+        data.correction_counts[t].add(world.corrections[t]->settle(data.views[batch], data.contacts, bodies, before));
     });
     if (moved) measureCorrected(world, rangeOf(world));
 }
@@ -233,6 +235,7 @@ void resolveStage(WorldState& world) {
     }
     bodies.time_step = nextPartLength(world);
     bodies.surface = data.surface;
+    bodies.supports_move = doSupportsMove(bodies);
     const Vec3 acceleration = world.gravity + world.global_acceleration;
     bodies.whole_fall = world.part.length * acceleration;
     bodies.damped_fall = dampedPart(world.settings.sleep) * world.part.length * acceleration;

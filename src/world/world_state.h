@@ -130,6 +130,7 @@ struct StepData {
     std::vector<BrokenJoint> broken;                  ///< resolution: by slot
     std::vector<std::int32_t> supports;               ///< velocities: [slots] contacts in the direction of gravity
     std::vector<CorrectionCounts> correction_counts;  ///< correction: [threads]
+    std::vector<std::uint8_t> deep;                   ///< correction: [batches] 1 = has contacts that are too deep
     ResolutionCounts resolution_counts;               ///< resolution
     std::vector<std::uint32_t> added;                 ///< resolution: contacts that were added, ascending
     std::vector<std::uint32_t> unresolved;            ///< resolution: those that it left closing, ascending
