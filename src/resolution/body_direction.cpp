@@ -11,25 +11,19 @@ void BodyDirection::save(const LocalBatch& batch, const Executor& executor) {
     forEach(before_.size(), executor, [&](std::size_t i) { before_[i] = {batch.bodies[i].v, batch.bodies[i].w}; });
 }
 
-void BodyDirection::restart(std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) direction_[i] = {Vec3::Zero(), Vec3::Zero()};
+void BodyDirection::restart() {
+    for (Twist& direction : direction_) direction = {Vec3::Zero(), Vec3::Zero()};
 }
 
-void BodyDirection::accelerate(double beta, LocalBatch& batch, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
+void BodyDirection::accelerate(double beta, LocalBatch& batch, const Executor& executor) {
+    forEach(before_.size(), executor, [&](std::size_t i) {
         LocalBody& body = batch.bodies[i];
         const Twist change{body.v - before_[i].v, body.w - before_[i].w};
         const Twist step{beta * direction_[i].v, beta * direction_[i].w};
         body.v += step.v;
         body.w += step.w;
         direction_[i] = {change.v + step.v, change.w + step.w};
-    }
-}
-
-void BodyDirection::accelerate(double beta, LocalBatch& batch, const Executor& executor) {
-    executor.forBlocks(
-        before_.size(), [&](std::size_t begin, std::size_t end, int) { accelerate(beta, batch, begin, end); },
-        loop_grain);
+    });
 }
 
 }  // namespace cairn

@@ -16,10 +16,8 @@ class BodyDirection {
     void save(const LocalBatch& batch, const Executor& executor);
     /// Adds β times the last direction to the velocities; the new direction is the change since save() plus that.
     void accelerate(double beta, LocalBatch& batch, const Executor& executor);
-    /// The same of some bodies.
-    void accelerate(double beta, LocalBatch& batch, std::size_t begin, std::size_t end);
-    /// Forgets the last direction of some bodies. @pre save()
-    void restart(std::size_t begin, std::size_t end);
+    /// Forgets the last direction. @pre save()
+    void restart();
 
   private:
     std::vector<Twist> before_;     ///< [dynamic bodies]

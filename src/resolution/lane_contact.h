@@ -10,8 +10,7 @@
 
 namespace cairn {
 
-template <std::size_t lanes>
-using BodyIndices = std::array<std::uint32_t, lanes>;
+using BodyIndices = std::array<std::uint32_t, lane_count>;
 
 // What visits need of a body stands side by side, so that it can be read and written as vectors.
 static_assert(offsetof(LocalBody, v) == 0 && offsetof(LocalBody, w) == 3 * sizeof(double) &&
@@ -29,60 +28,103 @@ static_assert(offsetof(LocalBody, v) == 0 && offsetof(LocalBody, w) == 3 * sizeo
     r3 = __builtin_shufflevector(odd_01, odd_23, 2, 3, 6, 7);
 }
 
-/// Some numbers of a body, from one on. @param first in doubles
-[[gnu::always_inline]] inline Lanes rowOf(const LocalBody& body, std::size_t first) {
+/// Some numbers of a body or a contact, from one on. @param first in doubles
+template <class Object>
+[[gnu::always_inline]] inline Lanes rowOf(const Object& object, std::size_t first) {
     Lanes row;
-    __builtin_memcpy(&row, reinterpret_cast<const char*>(&body) + first * sizeof(double), sizeof row);
+    __builtin_memcpy(&row, reinterpret_cast<const char*>(&object) + first * sizeof(double), sizeof row);
     return row;
 }
 
-/// @tparam Number of the lanes, one index each
-template <class Number>
-[[gnu::always_inline]] inline PgsBody<Number> load(const std::vector<LocalBody>& bodies,
-                                                   const BodyIndices<lanes_in<Number>>& i);
+/// One of each lane.
+template <class Object>
+using OfLanes = std::array<Object*, lane_count>;
 
-template <>
-[[gnu::always_inline]] inline PgsBody<double> load<double>(const std::vector<LocalBody>& bodies,
-                                                           const BodyIndices<1>& i) {
-    return read(bodies[i[0]]);
-}
-
-template <>
-[[gnu::always_inline]] inline PgsBody<Lanes> load<Lanes>(const std::vector<LocalBody>& bodies,
-                                                         const BodyIndices<lane_count>& i) {
+template <class Body>
+[[gnu::always_inline]] inline PgsBody<Lanes> loadBodies(const OfLanes<Body>& bodies) {
     Lanes row[3][lane_count];
     for (std::size_t part = 0; part < 3; ++part) {
-        for (std::size_t lane = 0; lane < lane_count; ++lane) row[part][lane] = rowOf(bodies[i[lane]], 4 * part);
+        for (std::size_t lane = 0; lane < lane_count; ++lane) row[part][lane] = rowOf(*bodies[lane], 4 * part);
         transpose(row[part][0], row[part][1], row[part][2], row[part][3]);
     }
-    const Lanes mass_inv{bodies[i[0]].mass_inv, bodies[i[1]].mass_inv, bodies[i[2]].mass_inv, bodies[i[3]].mass_inv};
+    const Lanes mass_inv{bodies[0]->mass_inv, bodies[1]->mass_inv, bodies[2]->mass_inv, bodies[3]->mass_inv};
     return {{row[0][0], row[0][1], row[0][2]},
             {row[0][3], row[1][0], row[1][1]},
             mass_inv,
             {row[1][2], row[1][3], row[2][0], row[2][1], row[2][2], row[2][3]}};
 }
 
-// Bodies are stored only in lanes with the bit: others may stand for one that another thread is at work on.
-
-[[gnu::always_inline]] inline void store(const PgsBody<double>& body, const BodyIndices<1>& i,
-                                         const std::array<std::uint8_t, 1>& moves, int bit,
-                                         std::vector<LocalBody>& bodies) {
-    if ((moves[0] & bit) != 0) write(body, bodies[i[0]]);
+[[gnu::always_inline]] inline PgsBody<Lanes> load(const std::vector<LocalBody>& bodies, const BodyIndices& i) {
+    return loadBodies(OfLanes<const LocalBody>{&bodies[i[0]], &bodies[i[1]], &bodies[i[2]], &bodies[i[3]]});
 }
 
-[[gnu::always_inline]] inline void store(const PgsBody<Lanes>& body, const BodyIndices<lane_count>& i,
-                                         const std::array<std::uint8_t, lane_count>& moves, int bit,
-                                         std::vector<LocalBody>& bodies) {
+// Bodies are stored only in lanes with the bit: others may stand for one that another thread is at work on.
+
+/// Writes the velocities of a body to each lane for which is(lane).
+template <class Is>
+[[gnu::always_inline]] inline void store(const PgsBody<Lanes>& body, const OfLanes<LocalBody>& bodies, const Is& is) {
     Lanes row[lane_count] = {body.v.x(), body.v.y(), body.v.z(), body.w.x()};
     transpose(row[0], row[1], row[2], row[3]);
     const Lanes even = __builtin_shufflevector(body.w.y(), body.w.z(), 0, 4, 2, 6);
     const Lanes odd = __builtin_shufflevector(body.w.y(), body.w.z(), 1, 5, 3, 7);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
-        if ((moves[lane] & bit) == 0) continue;
-        char* const to = reinterpret_cast<char*>(&bodies[i[lane]]);
+        if (!is(lane)) continue;
+        char* const to = reinterpret_cast<char*>(bodies[lane]);
         const double rest[] = {lane % 2 == 0 ? even[lane] : odd[lane - 1], lane % 2 == 0 ? even[lane + 1] : odd[lane]};
         __builtin_memcpy(to, &row[lane], sizeof(Lanes));
         __builtin_memcpy(to + sizeof(Lanes), rest, sizeof rest);
+    }
+}
+
+[[gnu::always_inline]] inline void store(const PgsBody<Lanes>& body, const BodyIndices& i,
+                                         const std::array<std::uint8_t, lane_count>& moves, int bit,
+                                         std::vector<LocalBody>& bodies) {
+    const OfLanes<LocalBody> to{&bodies[i[0]], &bodies[i[1]], &bodies[i[2]], &bodies[i[3]]};
+    store(
+        body, to, [&](std::size_t lane) __attribute__((always_inline)) { return (moves[lane] & bit) != 0; });
+}
+
+// Likewise all of a contact, of which the impulse is the first.
+constexpr std::size_t contact_rows = 7;
+static_assert(offsetof(BasicPgsContact<double>, impulse) == 0 &&
+              sizeof(BasicPgsContact<double>) == contact_rows * sizeof(Lanes) &&
+              sizeof(BasicPgsContact<Lanes>) == contact_rows * sizeof(Lanes) * lane_count);
+
+/// The contact of each lane.
+[[gnu::always_inline]] inline BasicPgsContact<Lanes> loadContacts(const OfLanes<BasicPgsContact<double>>& contacts) {
+    Lanes row[contact_rows][lane_count];
+    for (std::size_t part = 0; part < contact_rows; ++part) {
+        for (std::size_t lane = 0; lane < lane_count; ++lane) row[part][lane] = rowOf(*contacts[lane], 4 * part);
+        transpose(row[part][0], row[part][1], row[part][2], row[part][3]);
+    }
+    BasicPgsContact<Lanes> wide;
+    __builtin_memcpy(static_cast<void*>(&wide), row, sizeof wide);
+    return wide;
+}
+
+/// Writes all of each lane but of those that have none (null).
+[[gnu::always_inline]] inline void storeContacts(const BasicPgsContact<Lanes>& wide,
+                                                 const OfLanes<BasicPgsContact<double>>& contacts) {
+    Lanes row[contact_rows][lane_count];
+    __builtin_memcpy(row, &wide, sizeof wide);
+    for (std::size_t part = 0; part < contact_rows; ++part) {
+        transpose(row[part][0], row[part][1], row[part][2], row[part][3]);
+        for (std::size_t lane = 0; lane < lane_count; ++lane) {
+            if (contacts[lane] == nullptr) continue;
+            char* const to = reinterpret_cast<char*>(contacts[lane]) + part * sizeof(Lanes);
+            __builtin_memcpy(to, &row[part][lane], sizeof(Lanes));
+        }
+    }
+}
+
+/// Writes the impulse of each lane.
+[[gnu::always_inline]] inline void storeImpulse(const BasicPgsContact<Lanes>& wide,
+                                                const OfLanes<BasicPgsContact<double>>& contacts) {
+    // With the number behind it, which stays.
+    Lanes row[lane_count] = {wide.impulse.x(), wide.impulse.y(), wide.impulse.z(), wide.normal.x()};
+    transpose(row[0], row[1], row[2], row[3]);
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        __builtin_memcpy(static_cast<void*>(contacts[lane]), &row[lane], sizeof(Lanes));
     }
 }
 
