@@ -209,13 +209,13 @@ void PairTable::join(const PairsInput& input, std::vector<Contact>& contacts) {
     });
 }
 
-void PairTable::followStruck(const PairsInput& input, double fastest, std::span<const std::uint8_t> stopped,
-                             std::vector<Contact>& contacts, std::vector<std::uint32_t>& added) {
+void PairTable::followStruck(const PairsInput& input, const MaybeStruck& whom, std::vector<Contact>& contacts,
+                             std::vector<std::uint32_t>& added) {
     added.clear();
     DetectionRange range = range_;
     // The velocities have it by now.
     range.foresight.fall.setZero();
-    if (!findStruck(input, range, fastest, stopped)) return;
+    if (!findStruck(input, range, whom)) return;
     neighbours_.update({input.bodies.kind, bounds_, input.bodies.v, unmoved_}, input.broad_phase, input.executor);
     for (FoundContacts& part : parts_) part.clear();
     forParts(input.executor, [&](FoundContacts& part) { followPairs(input, range, contacts, part); });
@@ -305,28 +305,37 @@ void PairTable::forParts(const Executor& executor, const Work& work) {
 }
 
 /// Looks ahead once more for the bodies that were struck, from where they are. @return whether there are any
-bool PairTable::findStruck(const PairsInput& input, const DetectionRange& range, double fastest,
-                           std::span<const std::uint8_t> stopped) {
-    const BodyStorage& bodies = input.bodies;
-    struck_.resize(bodies.slots());
-    input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
-        for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
-            const bool follows = !stopped.empty() && stopped[i] != 0;
-            // Whoever went back does so in every step if the smallest part of its velocity that leads there stays.
-            const bool struck = follows ? flies(bodies, i) : isStruck(bodies, range, i, ahead_[i]);
-            struck_[i] = struck ? 1 : 0;
-            unmoved_[i] = struck ? 0 : 1;
-            if (!struck) continue;
-            lookAhead(bodies, range, i, ahead_[i]);
-            const Bounds reached = ahead_[i].now.grown(fastest * range.foresight.time);
-            ahead_[i].way.lower = ahead_[i].way.lower.cwiseMax(reached.lower);
-            ahead_[i].way.upper = ahead_[i].way.upper.cwiseMin(reached.upper);
-            // What was found for the way foreseen stays.
-            bounds_[i].lower = bounds_[i].lower.cwiseMin(ahead_[i].way.lower);
-            bounds_[i].upper = bounds_[i].upper.cwiseMax(ahead_[i].way.upper);
-        }
+bool PairTable::findStruck(const PairsInput& input, const DetectionRange& range, const MaybeStruck& whom) {
+    const std::size_t slots = input.bodies.slots();
+    struck_.assign(slots, 0);
+    unmoved_.assign(slots, 1);
+    if (whom.changed) {
+        bool any = false;
+        for (const BodyIndex i : *whom.changed) any = (struck_[i] == 0 && follows(input, range, whom, i)) || any;
+        return any;
+    }
+    input.executor.forBlocks(slots, [&](std::size_t begin, std::size_t end, int) {
+        for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) follows(input, range, whom, i);
     });
     return std::ranges::find(struck_, 1) != struck_.end();
+}
+
+/// Likewise for one body. @return whether it was struck
+bool PairTable::follows(const PairsInput& input, const DetectionRange& range, const MaybeStruck& whom, BodyIndex i) {
+    const BodyStorage& bodies = input.bodies;
+    // Whoever went back does so in every step if the smallest part of its velocity that leads there stays.
+    const bool stopped = !whom.stopped.empty() && whom.stopped[i] != 0;
+    if (!(stopped ? flies(bodies, i) : isStruck(bodies, range, i, ahead_[i]))) return false;
+    struck_[i] = 1;
+    unmoved_[i] = 0;
+    lookAhead(bodies, range, i, ahead_[i]);
+    const Bounds reached = ahead_[i].now.grown(whom.fastest * range.foresight.time);
+    ahead_[i].way.lower = ahead_[i].way.lower.cwiseMax(reached.lower);
+    ahead_[i].way.upper = ahead_[i].way.upper.cwiseMin(reached.upper);
+    // What was found for the way foreseen stays.
+    bounds_[i].lower = bounds_[i].lower.cwiseMin(ahead_[i].way.lower);
+    bounds_[i].upper = bounds_[i].upper.cwiseMax(ahead_[i].way.upper);
+    return true;
 }
 
 /// Finds what each pair with a struck body lacks to keep the two apart. @param part in: its pairs; out: what was found

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,14 @@ struct PairsInput {
     std::span<const BodyPair> excluded;  ///< pairs that joints keep from touching, sorted
     const DetectionRange& range;         ///< which contacts are found
     const Executor& executor;
+};
+
+/// Whom the resolution may have sent elsewhere than foreseen.
+struct MaybeStruck {
+    double fastest;                         ///< bodies are followed as far as this speed leads them [m/s]
+    std::span<const std::uint8_t> stopped;  ///< [slots] 1 = what was foreseen of it did not hold; empty = nobody
+    /// Those that have other velocities than in the last call; none = any body may have.
+    std::optional<std::span<const BodyIndex>> changed;
 };
 
 /// Bodies that come and go between two detections.
@@ -60,11 +69,10 @@ class PairTable {
     /// Finds the contacts that nobody foresaw, since a body of theirs was struck by the resolution, and adds them
     /// behind those of their pairs; contacts that would not keep their bodies apart after all are tightened. @pre
     /// detect() was the last call, and it looked ahead
-    /// @param fastest bodies are followed as far as this speed leads them [m/s] @param stopped [slots] 1 = what was
-    /// foreseen of it did not hold, so it counts as struck; empty = nobody @param contacts with impulses, which they
-    /// keep @param added out: indices of the new and the tightened ones, ascending
-    void followStruck(const PairsInput& input, double fastest, std::span<const std::uint8_t> stopped,
-                      std::vector<Contact>& contacts, std::vector<std::uint32_t>& added);
+    /// @param contacts with impulses, which they keep @param added out: indices of the new and the tightened ones,
+    /// ascending
+    void followStruck(const PairsInput& input, const MaybeStruck& whom, std::vector<Contact>& contacts,
+                      std::vector<std::uint32_t>& added);
 
     /// To be called when filters may keep other bodies apart than before: all pairs are asked in the next step.
     void askAll() { asks_all_ = true; }
@@ -100,8 +108,8 @@ class PairTable {
                          FoundContacts& part);
     void findBoundsOf(const BodyStorage& bodies, BodyIndex i);
     void join(const PairsInput& input, std::vector<Contact>& contacts);
-    bool findStruck(const PairsInput& input, const DetectionRange& range, double fastest,
-                    std::span<const std::uint8_t> stopped);
+    bool findStruck(const PairsInput& input, const DetectionRange& range, const MaybeStruck& whom);
+    bool follows(const PairsInput& input, const DetectionRange& range, const MaybeStruck& whom, BodyIndex i);
     void followPairs(const PairsInput& input, const DetectionRange& range, std::span<const Contact> contacts,
                      FoundContacts& part);
     void addGrown(FoundContacts& part);

@@ -275,15 +275,13 @@ void listClosing(WorldState& world, const BodyState& bodies) {
     std::ranges::sort(data.closing);
 }
 
-/// Likewise, where only the bodies of the surroundings have other velocities since the list was made.
+/// Likewise, where only the bodies of data.changed have other velocities since the list was made.
 void updateClosing(WorldState& world, const BodyState& bodies) {
     StepData& data = world.data;
     data.asked.clear();
-    for (const BatchView& group : data.surroundings.groups()) {
-        for (const BodyIndex body : group.bodies) {
-            const auto of_body = data.contacts_of[body];
-            data.asked.insert(data.asked.end(), of_body.begin(), of_body.end());
-        }
+    for (const BodyIndex body : data.changed) {
+        const auto of_body = data.contacts_of[body];
+        data.asked.insert(data.asked.end(), of_body.begin(), of_body.end());
     }
     std::ranges::sort(data.asked);
     data.asked.erase(std::unique(data.asked.begin(), data.asked.end()), data.asked.end());
@@ -334,11 +332,10 @@ bool followStruck(WorldState& world, BodyState& bodies, const PairsInput& pairs)
     bool any = false;
     data.left_closing.clear();
     // Whoever went back would get as deep again by what was foreseen of it.
-    std::span<const std::uint8_t> stopped = data.stopped;
+    MaybeStruck whom{data.fastest, data.stopped, {}};
     for (int n = 0; n < most_follows; ++n) {
         const std::size_t known = data.contacts.size();
-        data.pairs.followStruck(pairs, data.fastest, stopped, data.contacts, data.added);
-        stopped = {};
+        data.pairs.followStruck(pairs, whom, data.contacts, data.added);
         const bool grown = data.contacts.size() > known;
         if (grown) listContacts(world.bodies.kind, data.contacts, data.contacts_of);
         if (grown || n == 0) {
@@ -350,6 +347,11 @@ bool followStruck(WorldState& world, BodyState& bodies, const PairsInput& pairs)
         if (data.added.empty() && data.unresolved.empty()) break;
         any = any || !data.added.empty();
         resolveFollowed(world, bodies);
+        data.changed.clear();
+        for (const BatchView& group : data.surroundings.groups()) {
+            data.changed.insert(data.changed.end(), group.bodies.begin(), group.bodies.end());
+        }
+        whom = {data.fastest, {}, data.changed};
     }
     return any;
 }

@@ -137,6 +137,7 @@ struct StepData {
     std::vector<std::uint32_t> closing;  ///< resolution: those at which bodies would get too far, ascending
     std::vector<std::vector<std::uint32_t>> closing_of;  ///< resolution: [threads] kept memory
     std::vector<std::uint32_t> asked;                    ///< resolution: kept memory
+    std::vector<BodyIndex> changed;                      ///< resolution: who was resolved again last
     std::vector<LeftClosing> left_closing;               ///< resolution: by pair
     std::vector<LeftClosing> left_before;                ///< resolution: the same, of the round before
     std::vector<std::uint32_t> seeds;                    ///< resolution: all of both, ascending

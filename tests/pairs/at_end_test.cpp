@@ -77,7 +77,7 @@ TEST(AtEnd, WhoWentBackIsFollowedHoweverSlowItIs) {
         scene.turn(2 * rod_allowed);
         const std::vector<std::uint8_t> stopped{0, went_back ? std::uint8_t{1} : std::uint8_t{0}};
         std::vector<std::uint32_t> added;
-        scene.pairs.followStruck(scene.input(), 100, stopped, scene.contacts, added);
+        scene.pairs.followStruck(scene.input(), {100, stopped, {}}, scene.contacts, added);
         EXPECT_NE(added.empty(), went_back);
     }
 }
