@@ -72,6 +72,14 @@ void FoundContacts::add(std::size_t from, std::size_t contacts, bool stays) {
     }
 }
 
+void FoundContacts::tighten(const Tightened& wanted, double allowed_now) {
+    if (!(wanted.allowed_closing < allowed_now)) return;
+    const bool again =
+        !tightened.empty() && tightened.back().pair == wanted.pair && tightened.back().place == wanted.place;
+    if (!again) tightened.push_back(wanted);
+    tightened.back().allowed_closing = std::min(tightened.back().allowed_closing, wanted.allowed_closing);
+}
+
 /// Brings the contacts that stay to their places: first all that move down, then, from the last on, those that move up.
 /// So none is written over before its turn.
 void ContactJoiner::moveStaying(std::span<const FoundContacts> parts, std::size_t total,

@@ -66,6 +66,8 @@ struct FoundContacts {
     void clear();
     /// Appends contacts. @param from, contacts, stays as of Run
     void add(std::size_t from, std::size_t contacts, bool stays);
+    /// Notes what a contact of a pair must allow at most, if it allows more. @param allowed_now [m/s]
+    void tighten(const Tightened& wanted, double allowed_now);
 };
 
 /// Makes the contacts of a step of what the threads found.

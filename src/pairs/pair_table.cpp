@@ -80,14 +80,6 @@ void collidePair(const BodyStorage& bodies, const BodyPair& pair, const Detectio
     if (ahead.mayCross()) collideCrossed(bodies, pair, range, ahead, contacts);
 }
 
-/// Notes what a contact of a pair must allow at most, if it allows more.
-void tighten(const FoundContacts::Tightened& wanted, double allowed_now, std::vector<FoundContacts::Tightened>& all) {
-    if (!(wanted.allowed_closing < allowed_now)) return;
-    const bool again = !all.empty() && all.back().pair == wanted.pair && all.back().place == wanted.place;
-    if (!again) all.push_back(wanted);
-    all.back().allowed_closing = std::min(all.back().allowed_closing, wanted.allowed_closing);
-}
-
 /// Finds what keeps the bodies of a pair apart and what it does not have yet: contacts that would be found with the
 /// velocities of now, and those of the places where the bodies overlap in the end all the same, since they turn other
 /// sides to each other. A contact that the pair has in such a place is tightened.
@@ -118,7 +110,7 @@ void findMissing(const BodyStorage& bodies, const BodyPair& pair, std::size_t n,
         const auto same = std::ranges::find_if(known, isSame);
         if (same != known.end()) {
             const auto place = static_cast<std::uint32_t>(same - known.begin());
-            tighten({n, place, closing}, same->allowed_closing, part.tightened);
+            part.tighten({n, place, closing}, same->allowed_closing);
             return;
         }
         if (std::ranges::any_of(std::span(contacts).subspan(first), isSame)) return;
@@ -310,22 +302,21 @@ bool PairTable::findStruck(const PairsInput& input, const DetectionRange& range,
     struck_.assign(slots, 0);
     unmoved_.assign(slots, 1);
     if (whom.changed) {
-        bool any = false;
-        for (const BodyIndex i : *whom.changed) any = (struck_[i] == 0 && follows(input, range, whom, i)) || any;
-        return any;
+        for (const BodyIndex i : *whom.changed) follow(input, range, whom, i);
+    } else {
+        input.executor.forBlocks(slots, [&](std::size_t begin, std::size_t end, int) {
+            for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) follow(input, range, whom, i);
+        });
     }
-    input.executor.forBlocks(slots, [&](std::size_t begin, std::size_t end, int) {
-        for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) follows(input, range, whom, i);
-    });
     return std::ranges::find(struck_, 1) != struck_.end();
 }
 
-/// Likewise for one body. @return whether it was struck
-bool PairTable::follows(const PairsInput& input, const DetectionRange& range, const MaybeStruck& whom, BodyIndex i) {
+/// Likewise for one body, if it was struck.
+void PairTable::follow(const PairsInput& input, const DetectionRange& range, const MaybeStruck& whom, BodyIndex i) {
     const BodyStorage& bodies = input.bodies;
     // Whoever went back does so in every step if the smallest part of its velocity that leads there stays.
     const bool stopped = !whom.stopped.empty() && whom.stopped[i] != 0;
-    if (!(stopped ? flies(bodies, i) : isStruck(bodies, range, i, ahead_[i]))) return false;
+    if (!(stopped ? flies(bodies, i) : isStruck(bodies, range, i, ahead_[i]))) return;
     struck_[i] = 1;
     unmoved_[i] = 0;
     lookAhead(bodies, range, i, ahead_[i]);
@@ -335,7 +326,6 @@ bool PairTable::follows(const PairsInput& input, const DetectionRange& range, co
     // What was found for the way foreseen stays.
     bounds_[i].lower = bounds_[i].lower.cwiseMin(ahead_[i].way.lower);
     bounds_[i].upper = bounds_[i].upper.cwiseMax(ahead_[i].way.upper);
-    return true;
 }
 
 /// Finds what each pair with a struck body lacks to keep the two apart. @param part in: its pairs; out: what was found

@@ -109,7 +109,7 @@ class PairTable {
     void findBoundsOf(const BodyStorage& bodies, BodyIndex i);
     void join(const PairsInput& input, std::vector<Contact>& contacts);
     bool findStruck(const PairsInput& input, const DetectionRange& range, const MaybeStruck& whom);
-    bool follows(const PairsInput& input, const DetectionRange& range, const MaybeStruck& whom, BodyIndex i);
+    void follow(const PairsInput& input, const DetectionRange& range, const MaybeStruck& whom, BodyIndex i);
     void followPairs(const PairsInput& input, const DetectionRange& range, std::span<const Contact> contacts,
                      FoundContacts& part);
     void addGrown(FoundContacts& part);
