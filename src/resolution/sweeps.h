@@ -51,8 +51,8 @@ class Sweeps {
     void accelerate(double beta);
 
     std::optional<PgsBatch> pgs_;
-    BatchView batch_;  ///< with the framed contacts last
-    bool framed_kind_ = false;
+    BatchView batch_;           ///< with the framed contacts last
+    bool framed_kind_ = false;  ///< it may have framed contacts, or has joints
     LocalBatch local_;
     Sweeper sweeper_;
     FramedContacts framed_;
