@@ -4,6 +4,7 @@
 
 #include "math/arrays.h"
 #include "resolution/fill_contact.h"
+#include "resolution/release_sliding.h"
 
 namespace cairn {
 
@@ -251,17 +252,10 @@ PgsContact ColourSweeper::contactAt(std::size_t contact, const PgsBatch& pgs) co
 }
 
 bool ColourSweeper::releaseSliding(const PgsBatch& pgs) {
-    bool released = false;
-    for (std::size_t i = 0; i < slot_of_.size(); ++i) {
-        const Contact& contact = pgs.contacts[pgs.batch.contacts[i]];
-        if (!(contact.kinetic_friction < contact.static_friction)) continue;
-        const PgsContact s = contactAt(i, pgs);
-        const std::vector<LocalBody>& bodies = pgs.local.bodies;
-        if (!slides(s, bodies[s.a], bodies[s.b], pgs.settings.resolution_threshold)) continue;
-        setLane(contacts_[slot_of_[i] / lane_count].friction, slot_of_[i] % lane_count, contact.kinetic_friction);
-        released = true;
-    }
-    return released;
+    const auto at = [&](std::size_t i) { return contactAt(i, pgs); };
+    return releaseSlidingOf(pgs, slot_of_.size(), at, [&](std::size_t i, double friction) {
+        setLane(contacts_[slot_of_[i] / lane_count].friction, slot_of_[i] % lane_count, friction);
+    });
 }
 
 void ColourSweeper::finish(const PgsBatch& pgs) {

@@ -58,8 +58,6 @@ template <class Body>
     return loadBodies(OfLanes<const LocalBody>{&bodies[i[0]], &bodies[i[1]], &bodies[i[2]], &bodies[i[3]]});
 }
 
-// Bodies are stored only in lanes with the bit: others may stand for one that another thread is at work on.
-
 /// Writes the velocities of a body to each lane for which is(lane).
 template <class Is>
 [[gnu::always_inline]] inline void store(const PgsBody<Lanes>& body, const OfLanes<LocalBody>& bodies, const Is& is) {
@@ -76,6 +74,7 @@ template <class Is>
     }
 }
 
+/// Only to lanes with the bit: others may stand for a body that another thread is at work on.
 [[gnu::always_inline]] inline void store(const PgsBody<Lanes>& body, const BodyIndices& i,
                                          const std::array<std::uint8_t, lane_count>& moves, int bit,
                                          std::vector<LocalBody>& bodies) {

@@ -5,6 +5,7 @@
 
 #include "math/arrays.h"
 #include "resolution/fill_contact.h"
+#include "resolution/release_sliding.h"
 
 namespace cairn {
 
@@ -126,17 +127,9 @@ void OrderedSweeper::setImpulse(std::size_t contact, const Triple1& impulse, Loc
 }
 
 bool OrderedSweeper::releaseSliding(const PgsBatch& pgs) {
-    bool released = false;
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-        const Contact& contact = pgs.contacts[pgs.batch.contacts[i]];
-        if (!(contact.kinetic_friction < contact.static_friction)) continue;
-        const PgsContact s = contactAt(i, pgs);
-        const std::vector<LocalBody>& bodies = pgs.local.bodies;
-        if (!slides(s, bodies[s.a], bodies[s.b], pgs.settings.resolution_threshold)) continue;
-        contacts_[i].friction = contact.kinetic_friction;
-        released = true;
-    }
-    return released;
+    const auto at = [&](std::size_t i) { return contactAt(i, pgs); };
+    return releaseSlidingOf(pgs, contacts_.size(), at,
+                            [&](std::size_t i, double friction) { contacts_[i].friction = friction; });
 }
 
 void OrderedSweeper::finish(const PgsBatch& pgs) const {

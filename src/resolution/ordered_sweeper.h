@@ -12,9 +12,9 @@ namespace cairn {
 /// A contact of which is not computed yet what visits need.
 struct UnfilledContact {
     const Contact* source;
-    const LocalBody* a;
+    const LocalBody* a;  ///< its bodies
     const LocalBody* b;
-    BasicPgsContact<double>* contact;
+    BasicPgsContact<double>* contact;  ///< where it is to be
 };
 
 /// Computes that for contacts of any batches, in lanes. @param position [slots] of the bodies [m, W]
@@ -30,7 +30,7 @@ class OrderedSweeper {
 
     /// Takes over the first contacts of a batch.
     void prepare(const PgsBatch& pgs, std::size_t contacts);
-    /// Appends them to those that are to be filled before start(). @pre nothing of the batch moves until then
+    /// Appends them to those that are to be filled before startFilled(). @pre nothing of the batch moves until then
     void listUnfilled(const PgsBatch& pgs, std::vector<UnfilledContact>& unfilled);
     /// Applies the impulses that the contacts begin with.
     void startFilled(const PgsBatch& pgs);
