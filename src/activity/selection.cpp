@@ -291,15 +291,17 @@ void Selection::disturb(BodyIndex i, const Vec3& impulse, const Vec3& r, Scratch
     d.squared_reach = std::max(d.squared_reach, r.squaredNorm());
 }
 
-/// Undoes the resolution of a part.
+/// Goes back to before the resolution of a part, whose contacts then begin with what it found: most of that stays.
 void Selection::revert(const PartOfBatch& part) {
     for (std::size_t n = part.body_begin; n < part.body_begin + part.bodies; ++n) {
         bodies().v[part_bodies_[n]] = before_[n].v;
         bodies().w[part_bodies_[n]] = before_[n].w;
     }
     for (const std::uint32_t c : std::span(part_contacts_).subspan(part.contact_begin, part.contacts)) {
-        input_->contacts[c].impulse.setZero();
-        input_->contacts[c].angular_impulse.setZero();
+        Contact& contact = input_->contacts[c];
+        contact.last_impulse = contact.impulse;
+        contact.impulse.setZero();
+        contact.angular_impulse.setZero();
     }
 }
 

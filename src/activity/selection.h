@@ -32,11 +32,11 @@ struct SelectionInput {
 /// that they had. Of a batch that sleeps in part, with Selecting::awake_parts, the sleeping bodies are held still, and
 /// each contact between one and a body that is awake is compared with what it gave when both were resolved last. A body
 /// that the difference would move faster than wake_speed is disturbed: it is resolved along with its surroundings, what
-/// was resolved of the batch begins anew, and each time the surroundings are taken four times as wide; where most of
-/// the batch would be resolved, all of it is. In the end those wake that are faster than wake_speed, and the others
-/// sleep on in silence where they are. So an impact on a sleeping pile wakes as much of it as it moves, in the same
-/// step, while one restless body in a large pile costs no more than its neighbourhood. The same on any number of
-/// threads.
+/// was resolved of the batch goes back and begins with the impulses that were found, and each time the surroundings are
+/// taken four times as wide; where most of the batch would be resolved, all of it is. In the end those wake that are
+/// faster than wake_speed, and the others sleep on in silence where they are. So an impact on a sleeping pile wakes as
+/// much of it as it moves, in the same step, while one restless body in a large pile costs no more than its
+/// neighbourhood. The same on any number of threads.
 class Selection {
   public:
     /// Begins a step. All that is passed must stay until finish(), but for contacts' impulses and bodies' velocities,
@@ -46,8 +46,8 @@ class Selection {
     std::span<const BatchView> chosen() const { return chosen_; }
     /// [slots] 1 = held still; empty = nobody is.
     std::span<const std::uint8_t> held() const { return held_; }
-    /// To be called after chosen() was resolved: undoes that where held bodies were disturbed, and chooses those
-    /// batches again with more of them. @return whether there are such
+    /// To be called after chosen() was resolved: goes back to before that where held bodies were disturbed, and chooses
+    /// those batches again with more of them and with the impulses that were found. @return whether there are such
     bool widen();
     /// Wakes who was pushed, and completes the contacts and joints.
     void finish();
