@@ -77,6 +77,9 @@ struct ResolutionSettings {
     /// other deeper than allowed. 0 = until a sweep changes no contact by more than a hundredth of
     /// resolution_threshold.
     double tolerance = 0.15;
+    /// The same where forces of users, springs or joints act, if it is less: friction that balances a force errs to one
+    /// side in every step. The hundredth becomes smaller in the same measure.
+    double pulled_tolerance = 0.15;
     bool shock_propagation = true;  ///< of impulse_queue: Algorithm 10, when iterations left contacts closing
 };
 

@@ -1301,6 +1301,7 @@ class ResolutionSettings(_Record):
         impacts: Union[Impacts, str] = ...,
         iterations: float = ...,
         tolerance: float = ...,
+        pulled_tolerance: float = ...,
         shock_propagation: bool = ...,
     ) -> None: ...
     @property
@@ -1329,6 +1330,9 @@ class ResolutionSettings(_Record):
     def tolerance(self) -> float:
         """'accelerated_sweeps' goes on until about so much is left to change, as a part of how a batch's contacts
         move"""
+    @property
+    def pulled_tolerance(self) -> float:
+        """'tolerance' where forces of users, springs or joints act, if it is less"""
     @property
     def shock_propagation(self) -> bool:
         """shock propagation of 'impulse_queue' when iterations were not enough (Algorithm 10)"""

@@ -76,6 +76,7 @@ void bindResolution(py::module_& module) {
         .field("impacts", &R::impacts)
         .field("iterations", &R::iterations)
         .field("tolerance", &R::tolerance)
+        .field("pulled_tolerance", &R::pulled_tolerance)
         .field("shock_propagation", &R::shock_propagation)
         .finish();
 }

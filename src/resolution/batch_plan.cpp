@@ -39,6 +39,7 @@ struct ContactSums {
     double motion = 0;  ///< with the squared velocities before the step's gravity [J]
     double scale = 0;   ///< what of that tells how exact impulses need to be [J]
     double depth = 0;   ///< squared overlaps as multiples of what is allowed
+    bool pulled = false;
 
     /// The mass is that of the two bodies against each other as far as they can move.
     void add(const Contact& contact, const BodyState& bodies) {
@@ -52,9 +53,10 @@ struct ContactSums {
         mass += 1 / inverse;
         motion += velocity.squaredNorm() / inverse;
         // Friction that balances a force must not become less exact the faster the force makes its bodies slide.
-        const bool pulled = std::max(bodies.loadOf(contact.a), bodies.loadOf(contact.b)) == Load::pulled;
+        const bool is_pulled = std::max(bodies.loadOf(contact.a), bodies.loadOf(contact.b)) == Load::pulled;
         const double along = contact.normal.dot(velocity);
-        scale += (pulled ? along * along : velocity.squaredNorm()) / inverse;
+        scale += (is_pulled ? along * along : velocity.squaredNorm()) / inverse;
+        pulled = pulled || is_pulled;
     }
 };
 
@@ -96,6 +98,7 @@ BatchKind kindOf(const BatchView& batch, std::span<const Contact> contacts, cons
         sums.add(contact, bodies);
     }
     const auto count = static_cast<double>(batch.contacts.size());
+    kind.pulled = sums.pulled;
     kind.motion = std::sqrt(sums.scale);
     kind.depth = count > 0 ? std::sqrt(sums.depth / count) : 0;
     kind.safe_way = safe_multiple * least_allowed;
@@ -108,9 +111,11 @@ BatchKind kindOf(const BatchView& batch, std::span<const Contact> contacts, cons
 
 SweepPlan planOf(const BatchKind& kind, const BodyState& bodies, const ResolutionSettings& settings) {
     const double deeper = std::max(1.0, kind.depth / usual_depth);
+    const bool stricter = kind.pulled && settings.pulled_tolerance < settings.tolerance;
+    const double part = stricter ? settings.pulled_tolerance / settings.tolerance : 1;
     return {.limit = sweepLimit(settings),
-            .steady_speed = steady_part * settings.resolution_threshold,
-            .tolerance = settings.tolerance / std::pow(deeper, depth_power),
+            .steady_speed = part * steady_part * settings.resolution_threshold,
+            .tolerance = part * settings.tolerance / std::pow(deeper, depth_power),
             .safe_speed = kind.safe_way / bodies.time_step,
             .motion = kind.motion};
 }

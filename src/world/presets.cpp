@@ -39,6 +39,7 @@ void setAccuracy(Settings& s, double scale) {
     s.resolution.resolution_threshold = 5.2e-6 * scale;
     s.resolution.restitution_threshold = 11.5e-3 * scale;
     s.resolution.tolerance = 0.01;
+    s.resolution.pulled_tolerance = 1e-4;
     s.resolution.shock_propagation = false;
     s.sleep.sleep_threshold = 0.52e-3 * scale;
     s.sleep.damping = 0;

@@ -121,6 +121,9 @@ const std::vector<SettingField>& settingTable() {
         plain<&S::resolution, &R::tolerance>("tolerance", "resolution", "", 0, 1,
                                              "'accelerated_sweeps' goes on until about so much is left to change, as a "
                                              "part of how a batch's contacts move"),
+        plain<&S::resolution, &R::pulled_tolerance>(
+            "pulled_tolerance", "resolution", "", 0, 1,
+            "'tolerance' where forces of users, springs or joints act, if it is less"),
         plain<&S::resolution, &R::shock_propagation>(
             "shock_propagation", "resolution", "", 0, 1,
             "shock propagation of 'impulse_queue' when iterations were not enough (Algorithm 10)"),
