@@ -43,5 +43,23 @@ TEST(BatchPlan, NoDirectStepsWhereLoopsMayMakeTheFactorDense) {
     EXPECT_FALSE(mayLeap(1000, 168));
 }
 
+TEST(BatchPlan, WhatForcesPullIsSolvedToItsOwnToleranceIfThatIsLess) {
+    test::Pile pile;
+    const BodyState bodies = pile.state();
+    ResolutionSettings settings;
+    settings.tolerance = 0.1;
+    for (const double own : {0.01, 0.2}) {
+        settings.pulled_tolerance = own;
+        const SweepPlan plain = planOf({}, bodies, settings);
+        const SweepPlan pulled = planOf({.pulled = true}, bodies, settings);
+        const double part = own < settings.tolerance ? 0.1 : 1;
+        EXPECT_DOUBLE_EQ(plain.tolerance, 0.1);
+        EXPECT_DOUBLE_EQ(pulled.tolerance, part * plain.tolerance);
+        EXPECT_DOUBLE_EQ(pulled.steady_speed, part * plain.steady_speed);
+    }
+    settings.tolerance = 0;
+    EXPECT_EQ(planOf({.pulled = true}, bodies, settings).tolerance, 0);
+}
+
 }  // namespace
 }  // namespace cairn
