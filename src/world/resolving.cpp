@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "batches/batch_motion.h"
 #include "resolution/contact_law.h"
@@ -279,18 +280,20 @@ void listClosing(WorldState& world, const BodyState& bodies) {
 void updateClosing(WorldState& world, const BodyState& bodies) {
     StepData& data = world.data;
     data.asked.clear();
+    data.is_asked.resize(data.contacts.size(), 0);
     for (const BodyIndex body : data.changed) {
-        const auto of_body = data.contacts_of[body];
-        data.asked.insert(data.asked.end(), of_body.begin(), of_body.end());
+        for (const std::uint32_t i : data.contacts_of[body]) {
+            if (std::exchange(data.is_asked[i], 1) == 0) data.asked.push_back(i);
+        }
     }
-    std::ranges::sort(data.asked);
-    data.asked.erase(std::unique(data.asked.begin(), data.asked.end()), data.asked.end());
-    std::erase_if(data.closing, [&](std::uint32_t i) { return std::ranges::binary_search(data.asked, i); });
+    std::erase_if(data.closing, [&](std::uint32_t i) { return data.is_asked[i] != 0; });
     const auto others = static_cast<std::ptrdiff_t>(data.closing.size());
-    std::ranges::copy_if(data.asked, std::back_inserter(data.closing), [&](std::uint32_t i) {
+    for (const std::uint32_t i : data.asked) {
+        data.is_asked[i] = 0;
         const Contact& contact = data.contacts[i];
-        return !areFixedOrAsleep(contact, bodies) && closesTooFar(contact, bodies);
-    });
+        if (!areFixedOrAsleep(contact, bodies) && closesTooFar(contact, bodies)) data.closing.push_back(i);
+    }
+    std::sort(data.closing.begin() + others, data.closing.end());
     std::inplace_merge(data.closing.begin(), data.closing.begin() + others, data.closing.end());
 }
 

@@ -137,6 +137,7 @@ struct StepData {
     std::vector<std::uint32_t> closing;  ///< resolution: those at which bodies would get too far, ascending
     std::vector<std::vector<std::uint32_t>> closing_of;  ///< resolution: [threads] kept memory
     std::vector<std::uint32_t> asked;                    ///< resolution: kept memory
+    std::vector<std::uint8_t> is_asked;                  ///< [contacts] 1 = in asked; zero outside of who uses it
     std::vector<BodyIndex> changed;                      ///< resolution: who was resolved again last
     std::vector<LeftClosing> left_closing;               ///< resolution: by pair
     std::vector<LeftClosing> left_before;                ///< resolution: the same, of the round before
