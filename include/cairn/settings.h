@@ -78,7 +78,7 @@ struct ResolutionSettings {
     /// resolution_threshold.
     double tolerance = 0.15;
     /// The same where forces of users, springs or joints act, if it is less: friction that balances a force errs to one
-    /// side in every step. The hundredth becomes smaller in the same measure.
+    /// side in every step. The hundredth becomes smaller in the same measure. 1e-6 to 1: sweeps must come to an end.
     double pulled_tolerance = 0.15;
     bool shock_propagation = true;  ///< of impulse_queue: Algorithm 10, when iterations left contacts closing
 };

@@ -35,11 +35,11 @@ constexpr double most_products = 25;
 
 /// What contacts are, summed over a batch.
 struct ContactSums {
-    double mass = 0;    ///< reduced masses of the bodies [kg]
-    double motion = 0;  ///< with the squared velocities before the step's gravity [J]
-    double scale = 0;   ///< what of that tells how exact impulses need to be [J]
-    double depth = 0;   ///< squared overlaps as multiples of what is allowed
-    bool pulled = false;
+    double mass = 0;      ///< reduced masses of the bodies [kg]
+    double motion = 0;    ///< with the squared velocities before the step's gravity [J]
+    double scale = 0;     ///< what of that tells how exact impulses need to be [J]
+    double depth = 0;     ///< squared overlaps as multiples of what is allowed
+    bool pulled = false;  ///< forces act on some of the bodies
 
     /// The mass is that of the two bodies against each other as far as they can move.
     void add(const Contact& contact, const BodyState& bodies) {

@@ -122,7 +122,7 @@ const std::vector<SettingField>& settingTable() {
                                              "'accelerated_sweeps' goes on until about so much is left to change, as a "
                                              "part of how a batch's contacts move"),
         plain<&S::resolution, &R::pulled_tolerance>(
-            "pulled_tolerance", "resolution", "", 0, 1,
+            "pulled_tolerance", "resolution", "", 1e-6, 1,
             "'tolerance' where forces of users, springs or joints act, if it is less"),
         plain<&S::resolution, &R::shock_propagation>(
             "shock_propagation", "resolution", "", 0, 1,
