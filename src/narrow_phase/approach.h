@@ -26,9 +26,10 @@ double overlapDepth(const Shape& a, const Pose& pose_a, const Shape& b, const Po
 inline constexpr double clearly_deeper = 1.02;
 
 /// When two shapes, if nothing stopped them, would first overlap by more than a depth within a time step [s]; none if
-/// they would not. Conservative advancement: no time is passed over in which they could. What is not decided after a
-/// number of rounds, since they graze each other, is looked at from there on in steps in which no point of one passes
-/// the other by more than the inner radius of the smaller shape, but for a number of steps at most.
+/// they would not. Conservative advancement: no time is passed over in which they could. Where both are convex solids,
+/// the farther of two bounds counts. What is not decided after a number of rounds, since they graze each other, is
+/// looked at from there on in steps in which no point of one passes the other by more than the inner radius of the
+/// smaller shape, but for a number of steps at most.
 /// @param time of the step [s] @param depth [m], ≥ 0
 /// @source Mirtich: Impulse-based dynamic simulation of rigid body systems, Berkeley 1996, §2.3
 std::optional<double> timeOfOverlap(const MovingShape& a, const MovingShape& b, double time, double depth);

@@ -1,6 +1,7 @@
 #include "pairs/foreseen.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/surface_data.h"
 #include "math/rotation.h"
@@ -63,6 +64,18 @@ void lookAhead(const BodyStorage& bodies, const DetectionRange& range, BodyIndex
     ahead.way = ahead.now.grown(turned);
     ahead.way.lower += way.cwiseMin(0);
     ahead.way.upper += way.cwiseMax(0);
+}
+
+Bounds searchedBounds(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, BodyAhead& ahead) {
+    Bounds grown = boundsOf(bodies.shape[i], bodies.shapePose(i));
+    const double r_min = bodies.r_min[i];
+    const double margin = std::isfinite(r_min) ? range.marginOf(r_min, r_min) : 0;
+    grown.lower.array() -= margin;
+    grown.upper.array() += margin;
+    if (range.foresight.time == 0) return grown;
+    ahead.now = grown;
+    lookAhead(bodies, range, i, ahead);
+    return ahead.way;
 }
 
 bool flies(const BodyStorage& bodies, BodyIndex i) {

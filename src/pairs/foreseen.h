@@ -55,6 +55,10 @@ struct BodyAhead {
 /// Fills in all but the bounds of now. @pre ahead.now
 void lookAhead(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, BodyAhead& ahead);
 
+/// The bounds that a detection searches a body with: grown by the margin, and by the way ahead [m, W].
+/// @param ahead out: how the body goes on, where the range looks ahead
+Bounds searchedBounds(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, BodyAhead& ahead);
+
 /// Whether contacts move a body.
 bool flies(const BodyStorage& bodies, BodyIndex i);
 
@@ -75,8 +79,6 @@ class PairAhead {
 
     /// Whether one of them moves far enough to look ahead.
     bool isAny() const { return a_.reach > 0 || b_.reach > 0; }
-    /// Whether the bounds overlap now. @pre isAny()
-    bool mayTouchNow() const { return a_.now.overlaps(b_.now); }
     /// Whether two bodies that do not touch would meet before the next detection, rather than pass each other by: with
     /// the motion of both, or of one of them alone, as another body may stop the other. Those that would overlap by no
     /// more than they are allowed pass: what slides over a seam between two others is not to be stopped by the edge of

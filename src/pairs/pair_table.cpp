@@ -1,7 +1,6 @@
 #include "pairs/pair_table.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "math/arrays.h"
 #include "narrow_phase/narrow_phase.h"
@@ -31,17 +30,17 @@ bool mergeInto(std::span<FoundContact> others, const FoundContact& found, double
 }
 
 /// Appends the contacts that two bodies have where they are, and those that they would have on their ways.
-void collideNear(const BodyStorage& bodies, const BodyPair& pair, const DetectionRange& range, const PairAhead& ahead,
+/// @return whether they are near enough for any
+bool collideNear(const BodyStorage& bodies, const BodyPair& pair, const DetectionRange& range, const PairAhead& ahead,
                  Manifold& manifold, std::vector<FoundContact>& contacts) {
-    const bool near = !ahead.isAny() || ahead.mayTouchNow();
-    const bool would_meet = !near && ahead.wouldMeet();
-    if (!near && !would_meet) return;
     const std::size_t first = contacts.size();
     const double size = std::min(bodies.r_max[pair.a], bodies.r_max[pair.b]);
     const double allowed_overlap = range.overlapOf(bodies.r_min[pair.a], bodies.r_min[pair.b]);
     const double margin = range.marginOf(bodies.r_min[pair.a], bodies.r_min[pair.b]);
     bool touches = false;
+    bool reached = false;
     const auto add = [&](const Manifold& found) {
+        reached = reached || found.size > 0;
         // Within one manifold points are apart already.
         const std::size_t earlier = contacts.size() - first;
         for (std::size_t k = 0; k < found.size; ++k) {
@@ -59,7 +58,8 @@ void collideNear(const BodyStorage& bodies, const BodyPair& pair, const Detectio
     forEachManifold(bodies.shape[pair.a], bodies.shapePose(pair.a), bodies.shape[pair.b], bodies.shapePose(pair.b),
                     margin + ahead.way(), manifold, add);
     const bool foreseen = !touches && contacts.size() > first;
-    if (foreseen && !would_meet && !ahead.wouldMeet()) contacts.resize(first);
+    if (foreseen && !ahead.wouldMeet()) contacts.resize(first);
+    return reached;
 }
 
 /// Appends the contacts with triangles that the middle of a body, or of a part of it, would pass through.
@@ -73,11 +73,12 @@ void collideCrossed(const BodyStorage& bodies, const BodyPair& pair, const Detec
     });
 }
 
-/// Appends the contacts of one pair.
-void collidePair(const BodyStorage& bodies, const BodyPair& pair, const DetectionRange& range, const PairAhead& ahead,
+/// Appends the contacts of one pair. @return whether its bodies may meet elsewhere, too
+bool collidePair(const BodyStorage& bodies, const BodyPair& pair, const DetectionRange& range, const PairAhead& ahead,
                  Manifold& manifold, std::vector<FoundContact>& contacts) {
-    collideNear(bodies, pair, range, ahead, manifold, contacts);
+    const bool reached = collideNear(bodies, pair, range, ahead, manifold, contacts);
     if (ahead.mayCross()) collideCrossed(bodies, pair, range, ahead, contacts);
+    return reached;
 }
 
 /// Finds what keeps the bodies of a pair apart and what it does not have yet: contacts that would be found with the
@@ -88,14 +89,14 @@ void findMissing(const BodyStorage& bodies, const BodyPair& pair, std::size_t n,
                  const PairAhead& ahead, Manifold& manifold, std::span<const Contact> known, FoundContacts& part) {
     std::vector<FoundContact>& contacts = part.found;
     const std::size_t first = contacts.size();
-    collidePair(bodies, pair, range, ahead, manifold, contacts);
+    const bool reached = collidePair(bodies, pair, range, ahead, manifold, contacts);
     const double size = std::min(bodies.r_max[pair.a], bodies.r_max[pair.b]);
     const auto isKnown = [&](const FoundContact& found) {
         return std::ranges::any_of(known, [&](const Contact& c) { return isSameAtOnce(c, found, size); });
     };
     contacts.erase(std::remove_if(contacts.begin() + static_cast<std::ptrdiff_t>(first), contacts.end(), isKnown),
                    contacts.end());
-    if (!ahead.isAny()) return;
+    if (!reached || !ahead.isAny()) return;
     const double allowed_overlap = range.overlapOf(bodies.r_min[pair.a], bodies.r_min[pair.b]);
     ahead.forEachAtEnd(manifold, [&](const PairAhead::AtEnd& met) {
         const auto isSame = [&](const auto& c) {
@@ -127,18 +128,6 @@ bool mayTouch(const BodyStorage& bodies, std::span<const BodyPair> excluded, con
 }
 
 }  // namespace
-
-Bounds searchedBounds(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, BodyAhead& ahead) {
-    Bounds grown = boundsOf(bodies.shape[i], bodies.shapePose(i));
-    const double r_min = bodies.r_min[i];
-    const double margin = std::isfinite(r_min) ? range.marginOf(r_min, r_min) : 0;
-    grown.lower.array() -= margin;
-    grown.upper.array() += margin;
-    if (range.foresight.time == 0) return grown;
-    ahead.now = grown;
-    lookAhead(bodies, range, i, ahead);
-    return ahead.way;
-}
 
 void PairTable::beginStep(const BodyStorage& bodies, std::span<const std::uint32_t> generation) {
     others_.assign(bodies.slots(), 0);

@@ -41,10 +41,6 @@ struct PairChange {
     std::span<const Contact> contacts;  ///< of those that came, sorted by (a, b)
 };
 
-/// The bounds that a detection searches a body with: grown by the margin, and by the way ahead [m, W].
-/// @param ahead out: how the body goes on, where the range looks ahead
-Bounds searchedBounds(const BodyStorage& bodies, const DetectionRange& range, BodyIndex i, BodyAhead& ahead);
-
 /// The pairs of bodies near each other, in the order of their slots. A pair lives as long as the bounds that its bodies
 /// were searched with overlap; its contacts are found anew where a body is not where it was detected last
 /// (BodyArrays::detected_position). What is found depends on poses and shapes alone. The impulses that new contacts

@@ -24,11 +24,6 @@ constexpr int most_follows = 64;
 /// by step.
 constexpr double most_overlap = 1.2, least_way = 0.1;
 
-/// A round helps a pair if it leaves it closing by less than this part of the least so far. After so many rounds that
-/// did not it is given up in this step.
-constexpr double worthwhile = 0.99;
-constexpr int most_useless = 8;
-
 /// How many contacts away from such a one bodies are resolved with all their contacts: farther where contacts push
 /// and have not bounced, since what has bounced is not undone.
 constexpr int near_reach = 2, far_reach = 4;
@@ -305,26 +300,8 @@ void findUnresolved(WorldState& world, const BodyState& bodies) {
     std::ranges::copy_if(data.closing, std::back_inserter(data.unresolved), [&](std::uint32_t i) {
         return !std::ranges::binary_search(data.added, i) && !hasJoint(data, data.contacts[i]);
     });
-    data.left_before.swap(data.left_closing);
-    data.left_closing.clear();
-    for (const std::uint32_t i : data.unresolved) {
-        const Contact& contact = data.contacts[i];
-        const BodyPair pair{contact.a, contact.b};
-        if (data.left_closing.empty() || data.left_closing.back().pair != pair) data.left_closing.push_back({pair});
-        data.left_closing.back().way = std::max(data.left_closing.back().way, wayInto(contact, bodies));
-    }
-    const auto find = [](std::vector<LeftClosing>& list, const BodyPair& pair) {
-        const auto found = std::ranges::lower_bound(list, pair, {}, &LeftClosing::pair);
-        return found != list.end() && found->pair == pair ? &*found : nullptr;
-    };
-    for (LeftClosing& left : data.left_closing) {
-        const LeftClosing* before = find(data.left_before, left.pair);
-        if (before == nullptr) continue;
-        left.useless = left.way > worthwhile * before->way ? before->useless + 1 : 0;
-        left.way = std::min(left.way, before->way);
-    }
-    std::erase_if(data.unresolved, [&](std::uint32_t i) {
-        return find(data.left_closing, {data.contacts[i].a, data.contacts[i].b})->useless >= most_useless;
+    data.progress.giveUp(data.unresolved, data.added, data.contacts, [&](std::uint32_t i) {
+        return wayInto(data.contacts[i], bodies) / data.contacts[i].allowed_overlap;
     });
 }
 
@@ -333,7 +310,7 @@ void findUnresolved(WorldState& world, const BodyState& bodies) {
 bool followStruck(WorldState& world, BodyState& bodies, const PairsInput& pairs) {
     StepData& data = world.data;
     bool any = false;
-    data.left_closing.clear();
+    data.progress.begin(world.bodies.kind);
     // Whoever went back would get as deep again by what was foreseen of it.
     MaybeStruck whom{data.fastest, data.stopped, {}};
     for (int n = 0; n < most_follows; ++n) {
@@ -350,6 +327,7 @@ bool followStruck(WorldState& world, BodyState& bodies, const PairsInput& pairs)
         if (data.added.empty() && data.unresolved.empty()) break;
         any = any || !data.added.empty();
         resolveFollowed(world, bodies);
+        data.progress.join(data.surroundings.groups());
         data.changed.clear();
         for (const BatchView& group : data.surroundings.groups()) {
             data.changed.insert(data.changed.end(), group.bodies.begin(), group.bodies.end());

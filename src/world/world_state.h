@@ -11,6 +11,7 @@
 #include "activity/selection.h"
 #include "batches/batch_motion.h"
 #include "batches/batches.h"
+#include "batches/follow_progress.h"
 #include "batches/schedule.h"
 #include "batches/surroundings.h"
 #include "body/body_storage.h"
@@ -77,13 +78,6 @@ struct FollowedGroup {
     bool later;  ///< for an impact that follows the others
 };
 
-/// Two bodies that a resolution left closing.
-struct LeftClosing {
-    BodyPair pair;
-    double way = 0;   ///< that they would get into each other, the least of all rounds so far [m]
-    int useless = 0;  ///< rounds that did not help
-};
-
 /// What batches were built of.
 struct BatchedFrom {
     std::uint64_t layout = 0;    ///< PairTable::layout()
@@ -139,8 +133,7 @@ struct StepData {
     std::vector<std::uint32_t> asked;                    ///< resolution: kept memory
     std::vector<std::uint8_t> is_asked;                  ///< [contacts] 1 = in asked; zero outside of who uses it
     std::vector<BodyIndex> changed;                      ///< resolution: who was resolved again last
-    std::vector<LeftClosing> left_closing;               ///< resolution: by pair
-    std::vector<LeftClosing> left_before;                ///< resolution: the same, of the round before
+    FollowProgress progress;                             ///< resolution: of following
     std::vector<std::uint32_t> seeds;                    ///< resolution: all of both, ascending
     Surroundings surroundings;                           ///< resolution: of the seeds
     std::vector<FollowedGroup> followed;                 ///< resolution: the same, group after group

@@ -17,8 +17,10 @@ TEST_P(QuickPiles, MeetTheirBounds) {
     const PileResult result = runPile(
         pile, [](Settings&) {}, [](const World&) {});
     std::vector<std::string> missed = missedBy(pile, result);
-    // Of a heap of cylinders 97 % sleep in time and not 98 %, since the last ones roll on for a while.
-    if (result.asleep >= 0.95) std::erase(missed, "rest");
+    // The largest cylinders of sizes 1 : 20 stop after 1.5·v·r / (0.01·d·g), which is longer than a pile may take: they
+    // are judged as what slides on without friction.
+    const bool rolls_on = pile.shape == PileShape::cylinder && pile.graded;
+    if (rolls_on && result.motion <= 1e-3) std::erase(missed, "rest");
     EXPECT_TRUE(missed.empty()) << lineOf(pile, result);
 }
 
