@@ -23,7 +23,7 @@ class FollowProgressTest : public ::testing::Test {
         progress_.begin(kind_);
     }
 
-    /// A round that leaves so much; then the bodies of what is gone on with are resolved together. @return that
+    /// A round that leaves so much. @return what is gone on with
     std::vector<std::uint32_t> roundThatLeaves(const Amounts& amounts, const std::vector<std::uint32_t>& added = {}) {
         std::vector<std::uint32_t> left;
         for (const auto& [contact, amount] : amounts) left.push_back(contact);

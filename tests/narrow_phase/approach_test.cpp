@@ -2,6 +2,7 @@
 #include "narrow_phase/approach.h"
 
 #include "narrow_phase/manifold_check.h"
+#include "narrow_phase/pair_random.h"
 
 namespace cairn::testing {
 namespace {
@@ -47,6 +48,35 @@ TEST(TimeOfOverlap, IsNoneForPlatesThatTurnCloseToEachOther) {
     const auto met = timeOfOverlap(still, closing, 1, depth);
     ASSERT_TRUE(met.has_value());
     EXPECT_NEAR(*met, 0.6, 1e-2);
+}
+
+TEST(TimeOfOverlap, PassesOverNoTimeInWhichSolidsThatTurnAreDeeper) {
+    Random random(7);
+    const Shape shapes[] = {Capsule{0.03, 1.6}, Box{Vec3(1, 0.6, 0.1)}, Cylinder{0.4, 0.2}, Sphere{0.3}};
+    int meetings = 0;
+    for (int n = 0; n < 400; ++n) {
+        const auto any = [&](const Vec3& place) {
+            MovingShape shape = moving(shapes[random.below(4)], place, random.vector(1), random.vector(6));
+            shape.pose.orientation = random.orientation();
+            return shape;
+        };
+        const MovingShape one = any(Vec3::Zero());
+        const MovingShape other = any(random.uniform(0.2, 1.5) * random.direction());
+        const auto met = timeOfOverlap(one, other, 0.5, depth);
+        if (met && *met == 0) continue;  // from the beginning
+        meetings += met ? 1 : 0;
+        const double until = met.value_or(0.5);
+        for (int k = 0; k < 200; ++k) {
+            const double time = until * k / 200;
+            const double then = overlapDepth(one.shape, one.poseAfter(time), other.shape, other.poseAfter(time));
+            ASSERT_LE(then, 1.05 * depth) << "pair " << n << " after " << time << " of " << until << " s";
+        }
+        if (met) {
+            const double then = overlapDepth(one.shape, one.poseAfter(*met), other.shape, other.poseAfter(*met));
+            EXPECT_GE(then, 0.5 * depth) << "pair " << n << " after " << *met << " s";
+        }
+    }
+    EXPECT_GT(meetings, 50);
 }
 
 }  // namespace
