@@ -16,9 +16,14 @@ constexpr int most_useless = 6;
 
 void FollowProgress::begin(std::span<const BodyKind> kind) {
     kind_ = kind;
-    for (const BodyIndex i : members_) chains_[i] = {i};
+    for (const BodyIndex i : members_) {
+        bodies_.part(i);
+        chains_[i] = {};
+    }
     members_.clear();
-    while (chains_.size() < kind.size()) chains_.push_back({static_cast<BodyIndex>(chains_.size())});
+    if (kind.size() <= chains_.size()) return;
+    bodies_.grow(kind.size());
+    chains_.resize(kind.size());
 }
 
 void FollowProgress::join(std::span<const BatchView> groups) {
@@ -34,11 +39,11 @@ void FollowProgress::giveUp(std::vector<std::uint32_t>& left, std::span<const st
         const auto& [a, b] = std::pair(contacts[i].a, contacts[i].b);
         if (kind_[a] == BodyKind::dynamic && kind_[b] == BodyKind::dynamic) join(a, b);
     };
-    const auto chainOf = [&](std::uint32_t i) -> Chain& { return chains_[rootOf(bodyOf(contacts[i]))]; };
+    const auto chainOf = [&](std::uint32_t i) -> Chain& { return chains_[rootOf(contacts[i])]; };
     std::ranges::for_each(left, joinBodies);
     std::ranges::for_each(added, joinBodies);
     roots_.clear();
-    for (const std::uint32_t i : left) roots_.push_back(rootOf(bodyOf(contacts[i])));
+    for (const std::uint32_t i : left) roots_.push_back(rootOf(contacts[i]));
     std::ranges::sort(roots_);
     roots_.erase(std::unique(roots_.begin(), roots_.end()), roots_.end());
     members_.insert(members_.end(), roots_.begin(), roots_.end());
@@ -60,21 +65,16 @@ void FollowProgress::giveUp(std::vector<std::uint32_t>& left, std::span<const st
     std::erase_if(left, [&](std::uint32_t i) { return chainOf(i).useless >= most_useless; });
 }
 
-/// One that moves.
-BodyIndex FollowProgress::bodyOf(const Contact& contact) const {
-    return kind_[contact.a] == BodyKind::dynamic ? contact.a : contact.b;
-}
-
-BodyIndex FollowProgress::rootOf(BodyIndex body) {
-    while (chains_[body].parent != body) body = chains_[body].parent = chains_[chains_[body].parent].parent;
-    return body;
+/// Of the body that moves.
+BodyIndex FollowProgress::rootOf(const Contact& contact) {
+    return bodies_.find(kind_[contact.a] == BodyKind::dynamic ? contact.a : contact.b);
 }
 
 void FollowProgress::join(BodyIndex a, BodyIndex b) {
-    const auto [low, high] = std::minmax({rootOf(a), rootOf(b)});
+    const auto [low, high] = std::minmax({bodies_.find(a), bodies_.find(b)});
     if (low == high) return;
     members_.insert(members_.end(), {low, high});
-    chains_[high].parent = low;
+    bodies_.join(low, high);
     Chain& chain = chains_[low];
     const Chain& other = chains_[high];
     if (other.helped == 0) return;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "batches/batches.h"
+#include "math/groups.h"
 #include "parallel/function_ref.h"
 
 namespace cairn {
@@ -26,21 +27,20 @@ class FollowProgress {
                 std::span<const Contact> contacts, FunctionRef<double(std::uint32_t)> amountOf);
 
   private:
-    /// Bodies that were resolved together.
+    /// What is known of bodies that were resolved together.
     struct Chain {
-        BodyIndex parent;     ///< in the forest of the chains; what follows is of roots
         double amount = 0;    ///< that is left closing in this round
         double helped = 0;    ///< the same of the last round that helped; 0 = of none
         int useless = 0;      ///< rounds since
         bool struck = false;  ///< since the last round
     };
 
-    BodyIndex bodyOf(const Contact& contact) const;
-    BodyIndex rootOf(BodyIndex body);
+    BodyIndex rootOf(const Contact& contact);
     void join(BodyIndex a, BodyIndex b);
 
     std::span<const BodyKind> kind_;
-    std::vector<Chain> chains_;       ///< [slots]
+    Groups bodies_;                   ///< chains, each named by its root
+    std::vector<Chain> chains_;       ///< [slots] of roots
     std::vector<BodyIndex> members_;  ///< of chains that are not of one body with nothing left, maybe several times
     std::vector<BodyIndex> roots_;    ///< of what is left, ascending
 };

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "geometry/groups.h"
+#include "math/groups.h"
 
 namespace cairn {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "geometry/groups.h"
+#include "math/groups.h"
 
 namespace cairn {
 
