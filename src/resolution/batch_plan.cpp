@@ -11,9 +11,12 @@ namespace cairn {
 
 namespace {
 
-/// Batches with at least so many contacts are solved by colours. In smaller ones the order of the contacts, from body
-/// to body, carries impulses farther in a sweep.
-constexpr std::size_t wide_contacts = 320;
+/// Batches with at least so many contacts are solved by colours, which threads can divide. In smaller ones the order of
+/// the contacts, from body to body, carries impulses farther in a sweep.
+constexpr std::size_t coloured_contacts = 320;
+
+/// From so many contacts on that order leaves enough of them that do not wait for each other to fill lanes.
+constexpr std::size_t wide_contacts = 64;
 
 /// A sweep that still changes speeds by more than lets bodies into each other by this multiple of the overlap allowed
 /// is not the last one.
@@ -105,7 +108,10 @@ BatchKind kindOf(const BatchView& batch, std::span<const Contact> contacts, cons
     kind.framed = kind.framed || kind.rolling > 0;
     const bool rests = sums.motion <= settings.restitution_threshold * settings.restitution_threshold * sums.mass;
     kind.may_step_directly = rests && !kind.framed && isChain(batch, contacts, bodies);
-    kind.coloured = batch.contacts.size() >= wide_contacts && !kind.may_step_directly;
+    const std::size_t size = kind.may_step_directly ? 0 : batch.contacts.size();
+    kind.order = size >= coloured_contacts ? SweepOrder::by_colours
+                 : size >= wide_contacts   ? SweepOrder::in_order
+                                           : SweepOrder::one_by_one;
     return kind;
 }
 

@@ -10,9 +10,9 @@ struct BatchKind {
     bool framed = false;             ///< it has joints or rolling friction, which work with frames of the contacts
     bool two_frictions = false;      ///< some contact slides with another friction than it sticks with
     bool may_step_directly = false;  ///< direct steps are taken where sweeps are not enough
-    bool coloured = false;           ///< large enough to be solved by colours
-    bool pulled = false;             ///< forces of users, springs or joints act on some of its bodies
-    std::size_t rolling = 0;         ///< contacts that resist rolling
+    SweepOrder order = SweepOrder::one_by_one;
+    bool pulled = false;      ///< forces of users, springs or joints act on some of its bodies
+    std::size_t rolling = 0;  ///< contacts that resist rolling
     /// How its contacts moved before the step's gravity, along their normals alone where forces pull, in the measure of
     /// SweepChange.
     double motion = 0;

@@ -6,11 +6,10 @@
 #include <limits>
 #include <vector>
 
+#include "resolution/lane_groups.h"
 #include "resolution/pgs_contact.h"
 
 namespace cairn {
-
-using BodyIndices = std::array<std::uint32_t, lane_count>;
 
 // What visits need of a body stands side by side, so that it can be read and written as vectors.
 static_assert(offsetof(LocalBody, v) == 0 && offsetof(LocalBody, w) == 3 * sizeof(double) &&

@@ -2,12 +2,20 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 
 #include "parallel/executor.h"
 #include "resolution/local_batch.h"
 
 namespace cairn {
+
+/// In which order sweeps visit the contacts of a batch.
+enum class SweepOrder : std::uint8_t {
+    one_by_one,  ///< from body to body
+    in_order,    ///< as if from body to body, in lanes on one thread
+    by_colours   ///< in lanes on all threads
+};
 
 /// What sweeps work on.
 struct PgsBatch {
@@ -17,6 +25,7 @@ struct PgsBatch {
     const BodyState& bodies;
     const ResolutionSettings& settings;
     const Executor& executor;
+    SweepOrder order = SweepOrder::one_by_one;
 };
 
 /// How much a sweep changed.

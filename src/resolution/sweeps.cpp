@@ -50,7 +50,7 @@ template <class Sweeper>
 void Sweeps<Sweeper>::prepare(const BatchView& batch, const BatchKind& kind, std::span<Contact> contacts,
                               const BodyState& bodies, const ResolutionSettings& settings, const Executor& executor) {
     gather(batch, kind, contacts, bodies);
-    pgs_.emplace(PgsBatch{local_, batch_, contacts, bodies, settings, executor});
+    pgs_.emplace(PgsBatch{local_, batch_, contacts, bodies, settings, executor, kind.order});
     plan_ = planOf(kind, bodies, settings);
     progress_ = SweepProgress(plan_);
     sweeps_ = 0;
@@ -203,6 +203,6 @@ void Sweeps<Sweeper>::accelerate(double beta) {
 }
 
 template class Sweeps<OrderedSweeper>;
-template class Sweeps<ColourSweeper>;
+template class Sweeps<LaneSweeper>;
 
 }  // namespace cairn

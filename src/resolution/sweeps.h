@@ -6,9 +6,9 @@
 
 #include "resolution/batch_plan.h"
 #include "resolution/body_direction.h"
-#include "resolution/colour_sweeper.h"
 #include "resolution/direct_step.h"
 #include "resolution/framed_contacts.h"
+#include "resolution/lane_sweeper.h"
 #include "resolution/ordered_sweeper.h"
 
 namespace cairn {
@@ -16,7 +16,7 @@ namespace cairn {
 /// Sweeps over the contacts of a batch, forth and back, with accumulated impulses that begin where the last step ended,
 /// and accelerates the sweeps. Sweeping back as well as forth keeps the contacts of a body alike, so that resting piles
 /// do not creep, and makes a sweep a symmetric preconditioner. One object per thread: it owns its scratch memory.
-/// @tparam Sweeper an OrderedSweeper, or a ColourSweeper for a batch that is large enough for all lanes and all threads
+/// @tparam Sweeper an OrderedSweeper, or a LaneSweeper for a batch that is large enough to fill lanes
 template <class Sweeper>
 class Sweeps {
   public:
@@ -76,6 +76,6 @@ class Sweeps {
 };
 
 extern template class Sweeps<OrderedSweeper>;
-extern template class Sweeps<ColourSweeper>;
+extern template class Sweeps<LaneSweeper>;
 
 }  // namespace cairn

@@ -34,12 +34,12 @@ class SweepsOfOne final : public BatchResolution {
         const auto sweep = [&](auto& sweeps) {
             return sweeps.resolve(batch, kind, contacts, bodies, settings, executor);
         };
-        return {.global_iterations = kind.coloured ? sweep(coloured_) : sweep(alone_)};
+        return {.global_iterations = kind.order == SweepOrder::one_by_one ? sweep(one_by_one_) : sweep(in_lanes_)};
     }
 
   private:
-    Sweeps<ColourSweeper> coloured_;
-    Sweeps<OrderedSweeper> alone_;
+    Sweeps<LaneSweeper> in_lanes_;
+    Sweeps<OrderedSweeper> one_by_one_;
 };
 
 /// Divides the batches of a step: the largest get all threads together, one after the other, and the others a thread
@@ -78,8 +78,8 @@ class SweepsOfAll final : public Resolution {
 
     /// What a thread works with.
     struct Worker {
-        Sweeps<ColourSweeper> coloured;
-        Sweeps<OrderedSweeper> alone;
+        Sweeps<LaneSweeper> in_lanes;
+        Sweeps<OrderedSweeper> one_by_one;
         Relay relay;
         std::unique_ptr<BatchResolution> with_impacts = makeImpactsFirst(makeSweepsOfOne(), Impacts::simultaneous);
         std::array<EnergyGuard, lane_count> guards;
@@ -105,9 +105,10 @@ class SweepsOfAll final : public Resolution {
         relayed_.clear();
         std::size_t contacts = 0;
         for (std::uint32_t b = 0; b < in.batches.size(); ++b) {
-            if (kinds_[b].coloured && sizeOf(b) - kinds_[b].rolling >= shared_contacts) {
+            const SweepOrder order = kinds_[b].order;
+            if (order == SweepOrder::by_colours && sizeOf(b) - kinds_[b].rolling >= shared_contacts) {
                 shared_.push_back(b);
-            } else if (kinds_[b].coloured || kinds_[b].framed || impacts_first_ || sizeOf(b) == 0) {
+            } else if (order != SweepOrder::one_by_one || kinds_[b].framed || impacts_first_ || sizeOf(b) == 0) {
                 alone_.push_back(b);
             } else {
                 relayed_.push_back(b);
@@ -159,10 +160,10 @@ class SweepsOfAll final : public Resolution {
                 sweeps.resolve(view, kind, in.contacts, in.bodies, in.settings, executor);
             sweepsOf(batch) = sweeps.sweeps();
         };
-        if (kind.coloured) {
-            sweepWith(worker.coloured);
+        if (kind.order == SweepOrder::one_by_one) {
+            sweepWith(worker.one_by_one);
         } else {
-            sweepWith(worker.alone);
+            sweepWith(worker.in_lanes);
         }
     }
 

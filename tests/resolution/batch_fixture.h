@@ -6,11 +6,14 @@
 #include <cstdint>
 #include <memory>
 #include <numeric>
+#include <set>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "activity/selection.h"
 #include "resolution/algorithms.h"
+#include "resolution/contact_colours.h"
 #include "resolution/resolution.h"
 
 namespace cairn::test {
@@ -35,6 +38,23 @@ class Random {
   private:
     std::uint64_t state_;
 };
+
+/// Pairs of random bodies with one to four contacts each, ascending. @param moving bodies below this move
+inline std::vector<ContactEnds> randomEnds(std::uint64_t seed, std::uint32_t bodies, std::size_t pairs) {
+    Random random(seed);
+    std::set<std::pair<std::uint32_t, std::uint32_t>> chosen;
+    while (chosen.size() < pairs) {
+        const auto a = static_cast<std::uint32_t>(random.uniform(0, bodies));
+        const auto b = static_cast<std::uint32_t>(random.uniform(0, bodies));
+        if (a != b) chosen.emplace(std::min(a, b), std::max(a, b));
+    }
+    std::vector<ContactEnds> ends;
+    for (const auto& [a, b] : chosen) {
+        const int contacts = 1 + static_cast<int>(random.uniform(0, 4));
+        for (int i = 0; i < contacts; ++i) ends.push_back({a, b});
+    }
+    return ends;
+}
 
 struct Friction {
     double static_coefficient = 0;

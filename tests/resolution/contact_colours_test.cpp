@@ -12,22 +12,7 @@
 namespace cairn {
 namespace {
 
-/// Pairs of random bodies with one to four contacts each, ascending. @param moving bodies below this move
-std::vector<ContactEnds> randomEnds(std::uint64_t seed, std::uint32_t bodies, std::size_t pairs) {
-    test::Random random(seed);
-    std::set<std::pair<std::uint32_t, std::uint32_t>> chosen;
-    while (chosen.size() < pairs) {
-        const auto a = static_cast<std::uint32_t>(random.uniform(0, bodies));
-        const auto b = static_cast<std::uint32_t>(random.uniform(0, bodies));
-        if (a != b) chosen.emplace(std::min(a, b), std::max(a, b));
-    }
-    std::vector<ContactEnds> ends;
-    for (const auto& [a, b] : chosen) {
-        const int contacts = 1 + static_cast<int>(random.uniform(0, 4));
-        for (int i = 0; i < contacts; ++i) ends.push_back({a, b});
-    }
-    return ends;
-}
+using test::randomEnds;
 
 std::vector<std::uint32_t> sorted(std::span<const std::uint32_t> order) {
     std::vector<std::uint32_t> all(order.begin(), order.end());
