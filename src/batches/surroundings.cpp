@@ -6,8 +6,6 @@ namespace cairn {
 
 namespace {
 
-constexpr BodyIndex nobody = UINT32_MAX;
-
 bool isExcluded(const SurroundingsInput& input, const Contact& contact) {
     return !input.excluded.empty() && (input.excluded[contact.a] | input.excluded[contact.b]) != 0;
 }
@@ -15,8 +13,13 @@ bool isExcluded(const SurroundingsInput& input, const Contact& contact) {
 }  // namespace
 
 void Surroundings::find(const SurroundingsInput& input, std::span<const std::uint32_t> seeds, const Rings& rings) {
-    inner_.assign(input.kind.size(), 0);
-    parent_.assign(input.kind.size(), nobody);
+    for (const auto& [root, body] : members_) {
+        taken_[body] = Taken::none;
+        joined_.part(body);
+    }
+    members_.clear();
+    taken_.resize(std::max(taken_.size(), input.kind.size()), Taken::none);
+    joined_.grow(input.kind.size());
     collectBodies(input, seeds, rings);
     collectContacts(input);
     divide();
@@ -27,8 +30,8 @@ void Surroundings::collectBodies(const SurroundingsInput& input, std::span<const
                                  const Rings& rings) {
     inside_.clear();
     const auto take = [&](BodyIndex i) {
-        if (input.kind[i] != BodyKind::dynamic || inner_[i] != 0) return;
-        inner_[i] = 1;
+        if (input.kind[i] != BodyKind::dynamic || taken_[i] == Taken::all) return;
+        taken_[i] = Taken::all;
         inside_.push_back(i);
     };
     for (const std::uint32_t i : seeds) {
@@ -53,33 +56,29 @@ void Surroundings::collectBodies(const SurroundingsInput& input, std::span<const
 
 /// Finds their contacts, each once, and the bodies that those are with, and joins what they connect.
 void Surroundings::collectContacts(const SurroundingsInput& input) {
-    members_.clear();
     of_members_.clear();
-    const auto join = [&](BodyIndex i) {
-        if (parent_[i] != nobody) return;
-        parent_[i] = i;
-        members_.emplace_back(nobody, i);
-    };
     for (const BodyIndex body : inside_) {
-        join(body);
+        members_.emplace_back(body, body);
         for (const std::uint32_t i : input.contacts_of[body]) {
             const Contact& contact = input.contacts[i];
             if (isExcluded(input, contact)) continue;
             const BodyIndex other = contact.a == body ? contact.b : contact.a;
-            if (inner_[other] != 0 && other < body) continue;
+            if (taken_[other] == Taken::all && other < body) continue;
             of_members_.emplace_back(body, i);
             if (input.kind[other] != BodyKind::dynamic) continue;
-            join(other);
-            const auto [low, high] = std::minmax({rootOf(body), rootOf(other)});
-            parent_[high] = low;
+            if (taken_[other] == Taken::none) {
+                taken_[other] = Taken::some;
+                members_.emplace_back(other, other);
+            }
+            joined_.join(body, other);
         }
     }
 }
 
 /// Sorts bodies and contacts by their groups, whose roots are their lowest bodies.
 void Surroundings::divide() {
-    for (auto& [root, body] : members_) root = rootOf(body);
-    for (auto& [root, contact] : of_members_) root = rootOf(root);
+    for (auto& [root, body] : members_) root = joined_.find(body);
+    for (auto& [root, contact] : of_members_) root = joined_.find(root);
     std::ranges::sort(members_);
     std::ranges::sort(of_members_);
     bodies_.clear();
@@ -96,11 +95,6 @@ void Surroundings::divide() {
         groups_.push_back({std::span(bodies_).subspan(first_body, b - first_body),
                            std::span(contacts_).subspan(first_contact, c - first_contact)});
     }
-}
-
-BodyIndex Surroundings::rootOf(BodyIndex body) {
-    while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
-    return body;
 }
 
 }  // namespace cairn

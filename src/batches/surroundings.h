@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "batches/batches.h"
+#include "math/groups.h"
 #include "parallel/function_ref.h"
 
 namespace cairn {
@@ -40,10 +41,12 @@ class Surroundings {
     void collectBodies(const SurroundingsInput& input, std::span<const std::uint32_t> seeds, const Rings& rings);
     void collectContacts(const SurroundingsInput& input);
     void divide();
-    BodyIndex rootOf(BodyIndex body);
 
-    std::vector<std::uint8_t> inner_;                              ///< [slots] 1 = with all its contacts
-    std::vector<BodyIndex> parent_;                                ///< [slots] in the forest of the groups
+    /// Which contacts of a body are taken.
+    enum class Taken : std::uint8_t { none, some, all };
+
+    std::vector<Taken> taken_;                                     ///< [slots]
+    Groups joined_;                                                ///< of slots
     std::vector<BodyIndex> inside_;                                ///< bodies with all their contacts
     std::vector<std::pair<BodyIndex, BodyIndex>> members_;         ///< root and body
     std::vector<std::pair<BodyIndex, std::uint32_t>> of_members_;  ///< a body, later the root, and contact

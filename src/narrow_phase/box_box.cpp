@@ -185,17 +185,25 @@ bool isNearest(const BoxPair& pair, const BoxAxes& axes, const FacePoints& point
     return false;
 }
 
+/// The face on the side of an axis that tells more. Where boxes cross with a lever, the separation along the face's own
+/// normal is far from what it is where they meet, and may have the other sign.
+double signTowards(const FaceAxis& face, const Vec3& face_normal, const Vec3& to_b) {
+    const double along = (face.owner == BoxOwner::a ? 1 : -1) * to_b.dot(face_normal);
+    return along < 0 ? -1 : 1;
+}
+
 /// @return whether the contact was found in the frame of A or of B
 BoxOwner findContact(const BoxPair& pair, const BoxAxes& axes, double margin, BoxContact& contact) {
     const FaceAxis& face = axes.face;
     const EdgeAxis& edge = axes.edge;
     const Vec3 face_normal = face.owner == BoxOwner::a ? Vec3(Vec3::Unit(face.axis)) : Vec3(pair.C.col(face.axis));
-    if (edge.separation <= face.separation + faceAxisBonus(face.separation, pair.smallest()) ||
-        std::abs(edge.normal.dot(face_normal)) > aligned_cosine) {
+    const bool face_tells_most = edge.separation <= face.separation + faceAxisBonus(face.separation, pair.smallest());
+    if (face_tells_most || std::abs(edge.normal.dot(face_normal)) > aligned_cosine) {
+        const double sign = face_tells_most ? face.sign : signTowards(face, face_normal, edge.normal);
         if (face.owner == BoxOwner::a) {
-            faceContact(pair, face.axis, face.sign, margin, contact);
+            faceContact(pair, face.axis, sign, margin, contact);
         } else {
-            faceContact(reversed(pair), face.axis, face.sign, margin, contact);
+            faceContact(reversed(pair), face.axis, sign, margin, contact);
         }
         if (isNearest(pair, axes, contact.points)) return face.owner;
     }

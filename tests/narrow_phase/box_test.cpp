@@ -1,5 +1,6 @@
 #include "narrow_phase/manifold_check.h"
 #include "narrow_phase/pair_random.h"
+#include "narrow_phase/reference.h"
 
 namespace cairn::testing {
 namespace {
@@ -130,6 +131,37 @@ TEST(BoxBox, StackedBoxesTiltedByTheirOverlapKeepAFaceContact) {
         const Manifold m = contactOf(box, pose, box, at({0, 0, 0}));
         ASSERT_GE(m.size, 2U) << "pose " << i;
         ASSERT_GT(m.normal.z(), std::cos(0.021)) << "pose " << i;
+    }
+}
+
+TEST(BoxBox, SlenderBoxesThatCrossAreAsFarApartAsTheyAre) {
+    // Their centres are up to a hundred times farther from the crossing than they are thick, so that along the normals of
+    // their faces they seem to be far in each other, on this or that side.
+    Random random(13);
+    for (int i = 0; i < 3000; ++i) {
+        const double thick = 0.005;
+        const Box lower{{random.uniform(0.1, 0.5), random.uniform(1, 40) * thick, thick}};
+        const Box upper{{random.uniform(0.1, 0.5), random.uniform(1, 40) * thick, thick}};
+        const Quat tilt(Eigen::AngleAxisd(random.uniform(0, 0.1), random.direction()));
+        const Quat turn(Eigen::AngleAxisd(random.uniform(0.1, std::numbers::pi - 0.1), Vec3::UnitZ()));
+        // Somewhere one is above the other.
+        const auto within = [&](const Box& box) {
+            return Vec3(random.uniform(-0.48, 0.48) * box.size.x(), random.uniform(-0.48, 0.48) * box.size.y(), 0);
+        };
+        const Quat orientation = tilt * turn;
+        const Pose pose_above{within(lower) - orientation * within(upper), orientation};
+        const auto gapAt = [&](double height) {
+            const Pose pose{pose_above.position + height * Vec3::UnitZ(), orientation};
+            return static_cast<double>(gapOf(Solid(upper, pose), Solid(lower, at({0, 0, 0}))));
+        };
+        // At first far above, then so far down that little is left.
+        double height = 0.2;
+        for (int n = 0; n < 20; ++n) height -= gapAt(height) - random.uniform(-1e-4, 4e-4);
+        const Pose pose{pose_above.position + height * Vec3::UnitZ(), orientation};
+        const double gap = gapAt(height);
+        const Manifold m = contactOf(upper, pose, lower, at({0, 0, 0}), 1e-3);
+        ASSERT_GT(m.size, 0U) << "pose " << i << " with a gap of " << gap;
+        ASSERT_NEAR(deepest(m), gap, 0.1 * thick) << "pose " << i;
     }
 }
 
