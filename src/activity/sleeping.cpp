@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/rotation.h"
 #include "math/tolerances.h"
 
 namespace cairn {
@@ -45,7 +46,7 @@ double initialMotion(const SleepSettings& settings) {
 
 namespace {
 
-/// How a body turned over a time is told from its orientations up to this angle [rad].
+/// The rotation vector of a body over a time is told from its orientations up to this angle [rad].
 constexpr double most_turned = 1;
 
 /// What does not go anywhere on the mean may shake with up to this multiple of the speed with which bodies fall asleep:
@@ -56,12 +57,6 @@ struct Velocities {
     Vec3 v, w;
 };
 
-/// Twice the sine of half the angle, along the axis: of the little that turns what is about to rest, the rotation
-/// vector.
-Vec3 turnOf(const Quat& rotation) {
-    return (rotation.w() < 0 ? -2 : 2) * rotation.vec();
-}
-
 /// Those of a body, or those with which it went and what it gained since, whichever is less.
 Velocities velocitiesOf(const BodyState& bodies, const MotionState& state, BodyIndex i) {
     const Velocities now{bodies.v[i], bodies.w[i]};
@@ -69,7 +64,7 @@ Velocities velocitiesOf(const BodyState& bodies, const MotionState& state, BodyI
     const double time = state.part_length;
     if (!(way.w.norm() * time < most_turned)) return now;
     const Vec3 v = (bodies.position[i] - way.begin.position) / time;
-    const Vec3 w = turnOf(bodies.orientation[i] * way.begin.orientation.conjugate()) / time;
+    const Vec3 w = toRotationVector(bodies.orientation[i] * way.begin.orientation.conjugate()) / time;
     const Velocities gone{v + (now.v - way.v), w + (now.w - way.w)};
     const double r_max = state.r_max[i];
     return squaredMotion(now.v, now.w, r_max) < squaredMotion(gone.v, gone.w, r_max) ? now : gone;

@@ -135,8 +135,8 @@ TEST(BoxBox, StackedBoxesTiltedByTheirOverlapKeepAFaceContact) {
 }
 
 TEST(BoxBox, SlenderBoxesThatCrossAreAsFarApartAsTheyAre) {
-    // Their centres are up to a hundred times farther from the crossing than they are thick, so that along the normals of
-    // their faces they seem to be far in each other, on this or that side.
+    // Their centres are up to a hundred times farther from the crossing than they are thick, so that along the normals
+    // of their faces they seem to be far in each other, on this or that side.
     Random random(13);
     for (int i = 0; i < 3000; ++i) {
         const double thick = 0.005;
