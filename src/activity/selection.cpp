@@ -65,9 +65,13 @@ void Selection::begin(const SelectionInput& input) {
             for (std::size_t b = begin; b < end; ++b) {
                 const BatchView& batch = input.batches[b];
                 choice_[b] = choiceOf(batch);
-                if (choice_[b] == Choice::whole) continue;
                 for (const BodyIndex i : batch.bodies) {
-                    if (sleeps(i)) hold(i);
+                    if (!sleeps(i)) continue;
+                    if (choice_[b] != Choice::whole) {
+                        hold(i);
+                    } else if (!input.without_contacts.empty()) {
+                        release(i);
+                    }
                 }
             }
         },
@@ -93,6 +97,13 @@ void Selection::hold(BodyIndex i) {
     bodies().w[i].setZero();
     part_[i] = Part::held;
     held_[i] = 1;
+}
+
+/// Gives a sleeper what its contacts hold it against.
+void Selection::release(BodyIndex i) {
+    const std::span<const BodyMotion> known = input_->without_contacts;
+    bodies().v[i] = known.empty() ? bodies().fallOf(i) : known[i].v;
+    bodies().w[i] = known.empty() ? Vec3(Vec3::Zero()) : known[i].w;
 }
 
 /// Gives the batches that are resolved in part their places.
@@ -197,7 +208,7 @@ void Selection::takeAlong(PartOfBatch& part, BodyIndex i) {
     held_[i] = 0;
     part.took_along = true;
     squared_reach_[i] = 0;
-    bodies().v[i] = bodies().fallOf(i);
+    release(i);
 }
 
 /// Takes the disturbed bodies along and all that so many contacts lead to from there.
@@ -291,7 +302,8 @@ void Selection::disturb(BodyIndex i, const Vec3& impulse, const Vec3& r, Scratch
     d.squared_reach = std::max(d.squared_reach, r.squaredNorm());
 }
 
-/// Goes back to before the resolution of a part, whose contacts then begin with what it found: most of that stays.
+/// Goes back to before the resolution of a part, whose contacts then begin with what it found: most of that stays. But
+/// who was held was pressed like a wall, and gives way now: its contacts begin with what they gave as it slept.
 void Selection::revert(const PartOfBatch& part) {
     for (std::size_t n = part.body_begin; n < part.body_begin + part.bodies; ++n) {
         bodies().v[part_bodies_[n]] = before_[n].v;
@@ -299,7 +311,8 @@ void Selection::revert(const PartOfBatch& part) {
     }
     for (const std::uint32_t c : std::span(part_contacts_).subspan(part.contact_begin, part.contacts)) {
         Contact& contact = input_->contacts[c];
-        contact.last_impulse = contact.impulse;
+        const bool pressed = isHeld(contact.a) || isHeld(contact.b);
+        contact.last_impulse = pressed ? contact.reference_impulse : contact.impulse;
         contact.impulse.setZero();
         contact.angular_impulse.setZero();
     }

@@ -26,17 +26,19 @@ struct SelectionInput {
     Selecting selecting;
     double wake_speed;  ///< what would move a sleeper faster wakes it [m/s]; 0 = batches wake as a whole
     const Executor& executor;
+    /// [slots] what sleepers have without the contacts of their batches; empty = no more than what gravity gives them
+    std::span<const BodyMotion> without_contacts{};
 };
 
 /// Chooses what a step resolves. Batches that sleep as a whole are left out, and their contacts go on with the impulses
 /// that they had. Of a batch that sleeps in part, with Selecting::awake_parts, the sleeping bodies are held still, and
 /// each contact between one and a body that is awake is compared with what it gave when both were resolved last. A body
 /// that the difference would move faster than wake_speed is disturbed: it is resolved along with its surroundings, what
-/// was resolved of the batch goes back and begins with the impulses that were found, and each time the surroundings are
-/// taken four times as wide; where most of the batch would be resolved, all of it is. In the end those wake that are
-/// faster than wake_speed, and the others sleep on in silence where they are. So an impact on a sleeping pile wakes as
-/// much of it as it moves, in the same step, while one restless body in a large pile costs no more than its
-/// neighbourhood. The same on any number of threads.
+/// was resolved of the batch goes back and begins with the impulses that were found between others, and each time the
+/// surroundings are taken four times as wide; where most of the batch would be resolved, all of it is. In the end those
+/// wake that are faster than wake_speed, and the others sleep on in silence where they are. So an impact on a sleeping
+/// pile wakes as much of it as it moves, in the same step, while one restless body in a large pile costs no more than
+/// its neighbourhood. The same on any number of threads.
 class Selection {
   public:
     /// Begins a step. All that is passed must stay until finish(), but for contacts' impulses and bodies' velocities,
@@ -98,6 +100,7 @@ class Selection {
     const BatchView& batchOf(const PartOfBatch& part) const { return input_->batches[part.batch]; }
 
     void hold(BodyIndex i);
+    void release(BodyIndex i);
     void addParts();
     void beginPart(PartOfBatch& part);
     void takeAlong(PartOfBatch& part, BodyIndex i);

@@ -71,19 +71,30 @@ Velocities velocitiesOf(const BodyState& bodies, const MotionState& state, BodyI
 }
 
 /// The squared motion (3.2.3) of a body [m²/s²]: of its velocity or, where it is known how bodies went, of the mean of
-/// that, unless it shakes. @param bias weight of the mean so far
-double motionOf(const BodyState& bodies, const MotionState& state, double bias, BodyIndex i) {
+/// that, unless it shakes. @param bias weight of the mean so far @param begins whether what was before is no part of it
+double motionOf(const BodyState& bodies, const MotionState& state, double bias, bool begins, BodyIndex i) {
     const double r_max = state.r_max[i];
     if (state.way.empty()) return squaredMotion(bodies.v[i], bodies.w[i], r_max);
     const auto [v, w] = velocitiesOf(bodies, state, i);
     Vec3& mean_v = state.mean_v[i];
     Vec3& mean_w = state.mean_w[i];
-    // What woke it is no part of a rest.
-    const bool woke = bodies.woken[i] != WakeReason::none;
-    mean_v = woke ? v : bias * mean_v + (1 - bias) * v;
-    mean_w = woke ? w : bias * mean_w + (1 - bias) * w;
+    mean_v = begins ? v : bias * mean_v + (1 - bias) * v;
+    mean_w = begins ? w : bias * mean_w + (1 - bias) * w;
     const double shaking = squaredMotion(v, w, r_max) / (most_shaking * most_shaking);
     return std::max(squaredMotion(mean_v, mean_w, r_max), shaking);
+}
+
+/// Whether a body has the motion still that it fell asleep with, though it may be awake.
+bool hasMotionOfSleep(const MotionState& state, double threshold, BodyIndex i) {
+    return state.motion[i] == threshold;
+}
+
+/// Whether a body woke and moves now: what pushed it may be what sweeps leave and the next step takes back, so that
+/// only that one tells whether it goes on.
+bool isJustPushed(const BodyState& bodies, const MotionState& state, double threshold, BodyIndex i) {
+    if (state.way.empty() || bodies.woken[i] == WakeReason::none) return false;
+    const auto [v, w] = velocitiesOf(bodies, state, i);
+    return hasMotionOfSleep(state, threshold, i) && !(squaredMotion(v, w, state.r_max[i]) < threshold);
 }
 
 /// Whether a constant force is too weak to show within one step: such a body must stay awake.
@@ -125,8 +136,11 @@ void fallAsleep(const BodyState& bodies, const MotionState& state, const SleepSe
     executor.forBlocks(bodies.size(), [&](std::size_t begin, std::size_t end, int) {
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
             if (bodies.isFixed(i) || bodies.asleep[i] != 0) continue;
+            if (isJustPushed(bodies, state, threshold, i)) continue;
             double& motion = state.motion[i];
-            motion = bias * motion + (1 - bias) * motionOf(bodies, state, bias, i);
+            // What woke it is no part of a rest.
+            const bool begins = bodies.woken[i] != WakeReason::none || hasMotionOfSleep(state, threshold, i);
+            motion = bias * motion + (1 - bias) * motionOf(bodies, state, bias, begins, i);
             if (!(motion < threshold)) {
                 motion = std::min(motion, limit);
                 continue;

@@ -58,8 +58,9 @@ double initialMotion(const SleepSettings& settings);
 
 /// Algorithm 5 for every awake body. Who is held back by others or pushed back by the correction has a velocity and
 /// goes nowhere: where it is known how bodies went, only that and what their velocities gained since is motion, and of
-/// that the mean, since what sweeps leave from step to step leads to and fro. A body with a constant force too weak to
-/// show within one step stays awake, since (3.2.5) holds for every lasting force.
+/// that the mean, since what sweeps leave from step to step leads to and fro, and begins anew in the step after one
+/// that woke it. A body with a constant force too weak to show within one step stays awake, since (3.2.5) holds for
+/// every lasting force.
 void fallAsleep(const BodyState& bodies, const MotionState& motion, const SleepSettings& settings,
                 const StepLength& step, const Executor& executor);
 

@@ -36,12 +36,14 @@ Selecting selectingOf(const WorldState& world) {
 }
 
 /// Resolves what is awake, and more of it where that disturbs sleepers.
-void resolveChosen(WorldState& world, BodyState& bodies, std::span<const BatchView> batches) {
+/// @param without_contacts as in SelectionInput
+void resolveChosen(WorldState& world, BodyState& bodies, std::span<const BatchView> batches,
+                   std::span<const BodyMotion> without_contacts = {}) {
     StepData& data = world.data;
     const ResolutionSettings& settings = world.settings.resolution;
     // What would keep a body from falling asleep wakes it.
-    data.selection.begin(
-        {batches, data.contacts, bodies, selectingOf(world), world.settings.sleep.sleep_threshold, world.executor});
+    data.selection.begin({batches, data.contacts, bodies, selectingOf(world), world.settings.sleep.sleep_threshold,
+                          world.executor, without_contacts});
     bodies.held = data.selection.held();
     do {
         data.resolution_counts.add(
@@ -77,21 +79,27 @@ bool hasBounced(const Contact& contact, const BodyState& bodies, const Resolutio
            normalVelocity(contact, bodies) > settings.restitution_threshold;
 }
 
-/// Takes what contacts gave from the velocities of the bodies that are awake.
-void takeBack(const Contact& contact, const BodyState& bodies) {
+/// Takes what a contact gave from the velocities of its bodies, which sleepers must not have while they sleep.
+/// @param sleepers theirs
+void takeBack(const Contact& contact, const BodyState& bodies, std::span<BodyMotion> sleepers) {
     for (const auto& [i, sign] : {std::pair(contact.a, 1.0), std::pair(contact.b, -1.0)}) {
-        if (bodies.isFixed(i) || bodies.asleep[i] != 0) continue;
+        if (bodies.isFixed(i)) continue;
+        const bool sleeps = bodies.asleep[i] != 0;
+        Vec3& v = sleeps ? sleepers[i].v : bodies.v[i];
+        Vec3& w = sleeps ? sleepers[i].w : bodies.w[i];
         const Vec3 lever = contact.pointOn(i) - bodies.position[i];
-        bodies.v[i] -= sign * bodies.mass_inv[i] * contact.impulse;
-        bodies.w[i] -= sign * (bodies.inertiaInv_W[i] * (lever.cross(contact.impulse) + contact.angular_impulse));
+        v -= sign * bodies.mass_inv[i] * contact.impulse;
+        w -= sign * (bodies.inertiaInv_W[i] * (lever.cross(contact.impulse) + contact.angular_impulse));
     }
 }
 
 /// Goes back to before the resolution of a group's contacts, which then begin with what it found. Where one of them
 /// has bounced, or one of those that were added bounces, the impacts follow each other: then the velocities stay, and
 /// all begin with nothing. (Bodies at the edge of a group keep what other contacts gave them, so that going back to
-/// before an impact would raise the energy.)
+/// before an impact would raise the energy.) Sleepers at the edge are held by others as well: they are in balance, and
+/// begin with what only the group's contacts hold them against.
 void beginAgain(StepData& data, const BodyState& bodies, const FollowedGroup& group) {
+    for (const BodyIndex i : group.view.bodies) data.without_contacts[i] = {Vec3::Zero(), Vec3::Zero()};
     for (const std::uint32_t i : group.view.contacts) {
         Contact& contact = data.contacts[i];
         data.resolved.push_back(contact);
@@ -99,7 +107,7 @@ void beginAgain(StepData& data, const BodyState& bodies, const FollowedGroup& gr
             contact.last_impulse.setZero();
             contact.reference_impulse.setZero();
         } else {
-            takeBack(contact, bodies);
+            takeBack(contact, bodies, data.without_contacts);
             contact.last_impulse = contact.impulse;
         }
         contact.impulse.setZero();
@@ -134,6 +142,7 @@ void resolveGroups(WorldState& world, BodyState& bodies, std::span<const BatchVi
     const double threshold = world.settings.resolution.restitution_threshold;
     data.followed.clear();
     data.resolved.clear();
+    data.without_contacts.resize(bodies.size());
     for (const BatchView& view : groups) {
         bool strikes = false;
         bool bounced = false;
@@ -152,7 +161,7 @@ void resolveGroups(WorldState& world, BodyState& bodies, std::span<const BatchVi
             if (!strikes || std::ranges::binary_search(data.unresolved, i)) data.contacts[i].restitution = 0;
         }
     }
-    resolveChosen(world, bodies, groups);
+    resolveChosen(world, bodies, groups, data.without_contacts);
     std::span<const Contact> resolved = data.resolved;
     for (const FollowedGroup& group : data.followed) {
         finishAgain(data, bodies, group, resolved.first(group.view.contacts.size()));

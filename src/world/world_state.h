@@ -138,6 +138,7 @@ struct StepData {
     Surroundings surroundings;                           ///< resolution: of the seeds
     std::vector<FollowedGroup> followed;                 ///< resolution: the same, group after group
     std::vector<BodyMotion> motions;                     ///< resolution: of their bodies before it went on
+    std::vector<BodyMotion> without_contacts;            ///< resolution: [slots] of their sleepers, without the groups
     std::vector<BatchView> gained;                       ///< resolution: groups that are resolved otherwise
     std::vector<Contact> resolved;                       ///< resolution: their contacts before it went on
     std::vector<std::uint32_t> launched;                 ///< positions: batches of launched jointed bodies, ascending

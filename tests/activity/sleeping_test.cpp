@@ -218,6 +218,27 @@ TEST(FallingAsleep, WhoWasPushedFromItsSleepMoves) {
     }
 }
 
+/// Whether a sleeper that is pushed sleeps again in the step after it. @param then its speed in that one [m/s]
+bool sleepsAfterPush(double speed, double then) {
+    Fixture s(1);
+    const SleepSettings settings{.sleep_threshold = 0.01};
+    s.bodies.asleep[0] = 1;
+    s.bodies.motion[0] = 1e-4;
+    s.bodies.state().wake(0, WakeReason::struck);
+    s.fly(settings, Vec3(speed, 0, 0));
+    EXPECT_EQ(s.bodies.asleep[0], 0) << "the next step tells";
+    s.bodies.woken[0] = WakeReason::none;
+    s.fly(settings, Vec3(then, 0, 0));
+    return s.bodies.asleep[0] != 0;
+}
+
+TEST(FallingAsleep, WhoWasPushedStaysAwakeIfAndOnlyIfItGoesOn) {
+    for (const double speed : {0.0075, 0.1, 10.0}) {
+        EXPECT_TRUE(sleepsAfterPush(speed, 0.007)) << speed;
+        EXPECT_FALSE(sleepsAfterPush(speed, 0.0072)) << speed;
+    }
+}
+
 TEST(FallingAsleep, TheHistoryDecaysAlikeAtAnyTimeStep) {
     EXPECT_EQ(motionBias({.time = 1.0 / 240}), 0.9);
     EXPECT_DOUBLE_EQ(std::pow(motionBias({.time = 1.0 / 960}), 4), 0.9);

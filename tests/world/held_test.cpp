@@ -50,6 +50,27 @@ TEST(Held, NothingIsHeldWhereNobodyMaySleep) {
     EXPECT_NEAR(tower.world.pose(tower.box[9]).position.z(), 0.95, 1e-3) << "it stands";
 }
 
+TEST(Held, AWeakImpactThatFollowsAnotherWakesNobody) {
+    HeldTower tower(10);
+    World& world = tower.world;
+    const MaterialId cork = world.addMaterial({"cork", 8});
+    // The lower ball is struck down and strikes the tower within the same step, whose surroundings are resolved again:
+    // the boxes farther down hold those at the edge of them all the same.
+    const auto addBall = [&](double z, double speed) {
+        world.addBody({.shape = Sphere{0.02},
+                       .material = cork,
+                       .pose = {Vec3(0, 0, z), Quat::Identity()},
+                       .linear_velocity = Vec3(0, 0, -speed)});
+    };
+    addBall(1.025, 0);
+    addBall(1.2, 9);
+    for (int i = 0; i < 10; ++i) {
+        world.step();
+        ASSERT_EQ(world.statistics().woken, 0) << i;
+        ASSERT_EQ(world.statistics().asleep, 10) << i;
+    }
+}
+
 TEST(Held, ASleeperOnAFixedBodyThatMovesGoesWithIt) {
     HeldTower tower(1);
     World& world = tower.world;
