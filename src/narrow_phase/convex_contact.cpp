@@ -34,6 +34,8 @@ struct Meeting {
     double rounding() const { return a.rounding() + b.rounding(); }
     double smallest() const { return std::min(a.smallest(), b.smallest()); }
     double distance() const { return separation.distance - rounding(); }
+    /// By how much faces go before edges whose cores are so far apart [m]: it follows how far the surfaces are.
+    double bonusAt(double of_cores) const { return faceAxisBonus(of_cores - rounding(), smallest()); }
 };
 
 /// Points halfway between the surfaces, with distances in place of heights.
@@ -159,7 +161,7 @@ void collectPoints(const OnFace& on, double margin, FacePoints& points) {
 bool addOnFace(const Meeting& meeting, const OnFace& on, ConvexContact& found) {
     collectPoints(on, meeting.margin, found.points);
     const Vec3& normal = on.face.face.normal;
-    const double limit = meeting.separation.distance + faceAxisBonus(meeting.separation.distance, meeting.smallest());
+    const double limit = meeting.separation.distance + meeting.bonusAt(meeting.separation.distance);
     bool nearest = false;
     for (std::size_t i = 0; i < found.points.size; ++i) {
         FacePoint& point = found.points.points[i];
@@ -173,9 +175,8 @@ bool addOnFace(const Meeting& meeting, const OnFace& on, ConvexContact& found) {
 
 bool isAcceptable(const Meeting& meeting, const OnFace& on) {
     if (!on.face.isFace()) return false;
-    const double bonus = faceAxisBonus(on.separation, meeting.smallest());
     const bool straight = !meeting.a.isTube() && !meeting.b.isTube();
-    return meeting.separation.distance <= on.separation + bonus ||
+    return meeting.separation.distance <= on.separation + meeting.bonusAt(on.separation) ||
            (straight && std::abs(meeting.separation.normal.dot(on.face.face.normal)) > aligned_direction);
 }
 
@@ -193,9 +194,7 @@ bool addFaceContact(const Meeting& meeting, ConvexContact& found) {
     const bool disc_b = meeting.feature_b.disc_radius > 0;
     bool b_first = !use_a;
     if (use_a && use_b) {
-        b_first = disc_a != disc_b
-                      ? disc_a
-                      : on_b.separation > on_a.separation + faceAxisBonus(on_a.separation, meeting.smallest());
+        b_first = disc_a != disc_b ? disc_a : on_b.separation > on_a.separation + meeting.bonusAt(on_a.separation);
     }
     if (addOnFace(meeting, b_first ? on_b : on_a, found)) return true;
     return use_a && use_b && addOnFace(meeting, b_first ? on_a : on_b, found);
@@ -220,7 +219,7 @@ bool addTubes(const Meeting& meeting, ConvexContact& found) {
     if (!((n - meeting.separation.normal).norm() <= 1e-3)) n = meeting.separation.normal;
     const double radii = meeting.a.tubeRadius() + meeting.b.tubeRadius();
     const double beside_limit = std::sqrt(meeting.margin * meeting.smallest());
-    const double deepest = meeting.distance() - faceAxisBonus(meeting.distance(), meeting.smallest());
+    const double deepest = meeting.distance() - meeting.bonusAt(meeting.separation.distance);
     found.normal = n;
     found.points.size = 0;
     for (const double t : {begin, end}) {
