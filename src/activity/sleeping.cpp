@@ -92,9 +92,10 @@ bool hasMotionOfSleep(const MotionState& state, double threshold, BodyIndex i) {
 /// Whether a body woke and moves now: what pushed it may be what sweeps leave and the next step takes back, so that
 /// only that one tells whether it goes on.
 bool isJustPushed(const BodyState& bodies, const MotionState& state, double threshold, BodyIndex i) {
-    if (state.way.empty() || bodies.woken[i] == WakeReason::none) return false;
+    const bool slept = bodies.woken[i] != WakeReason::none && hasMotionOfSleep(state, threshold, i);
+    if (state.way.empty() || !slept) return false;
     const auto [v, w] = velocitiesOf(bodies, state, i);
-    return hasMotionOfSleep(state, threshold, i) && !(squaredMotion(v, w, state.r_max[i]) < threshold);
+    return !(squaredMotion(v, w, state.r_max[i]) < threshold);
 }
 
 /// Whether a constant force is too weak to show within one step: such a body must stay awake.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "body/roundness.h"
 #include "pairs/same_point.h"
 
 namespace cairn {
@@ -19,6 +20,7 @@ class Motion {
         if (before.coeffs() != now.coeffs()) turn_ = (now * before.conjugate()).toRotationMatrix();
     }
     Vec3 movedPoint(const Vec3& point) const { return to_ + turn_ * (point - from_); }
+    Vec3 way() const { return to_ - from_; }
     Vec3 turned(const Vec3& direction) const { return turn_ * direction; }
 
   private:
@@ -58,6 +60,11 @@ void inheritImpulses(const BodyStorage& bodies, std::span<const Contact> before,
     const Motion with_a(bodies, a);
     const Motion with_b(bodies, b);
     const double size = std::min(bodies.r_max[a], bodies.r_max[b]);
+    double reach = same_after_a_step * size;
+    // Where one rolls on the other the point goes on over both, as far as the one passes the other. Flat sides do not
+    // roll, and of several points one would be taken for another.
+    const bool rolls = roundnessOf(bodies, a) != Roundness::none || roundnessOf(bodies, b) != Roundness::none;
+    if (rolls && before.size() == 1 && now.size() == 1) reach += (with_a.way() - with_b.way()).norm();
     // Every impulse goes to one contact as a whole: where points of a manifold merge or split, the pair still gets the
     // same push in total.
     for (const Contact& old : before) {
@@ -65,7 +72,7 @@ void inheritImpulses(const BodyStorage& bodies, std::span<const Contact> before,
         const Vec3 on_a = with_a.movedPoint(old.point);
         const Vec3 on_b = with_b.movedPoint(old.point);
         const Vec3 normal = with_a.turned(old.normal);
-        double nearest = same_after_a_step * same_after_a_step * size * size;
+        double nearest = reach * reach;
         FoundContact* heir = nullptr;
         for (FoundContact& contact : now) {
             const double apart = std::min((contact.point - on_a).squaredNorm(), (contact.point - on_b).squaredNorm());

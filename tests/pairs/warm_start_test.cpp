@@ -93,5 +93,24 @@ TEST(WarmStart, FarPointsGiveNothing) {
     EXPECT_EQ(far[0].last_impulse, Vec3::Zero());
 }
 
+TEST(WarmStart, AContactRollsOnWithARoundBody) {
+    BodyStorage bodies = twoBodies();
+    const Vec3 way(0, 0.5, 0);
+    bodies.position[0] += way;
+    // Without slip the point of the ball that touched stays there for now.
+    bodies.orientation[0] = Quat(Eigen::AngleAxisd(0.5, -Vec3::UnitZ()));
+    const std::vector before = {contactAt(Vec3(1, 0, 0), Vec3(3, 0, 0))};
+    const auto inherited = [&](const Vec3& point) {
+        std::vector<FoundContact> now = {foundAt(point)};
+        inheritImpulses(bodies, before, now);
+        return now[0].last_impulse.x();
+    };
+    bodies.shape[0] = bodies.shape[1] = Box{Vec3(2, 2, 2)};
+    EXPECT_EQ(inherited(Vec3(1, 0, 0) + way), 0) << "flat sides do not roll";
+    bodies.shape[0] = Sphere{1};
+    EXPECT_EQ(inherited(Vec3(1, 0, 0) + way), 3);
+    EXPECT_EQ(inherited(Vec3(1, 0, 0) + 1.5 * way), 0) << "farther than it went";
+}
+
 }  // namespace
 }  // namespace cairn
