@@ -169,6 +169,7 @@ BodyState BodyStorage::state() {
             .woken = woken,
             .gravity_factor = gravity_factor,
             .load = load,
+            .denied = held,
             .shock_stage = {}};
 }
 

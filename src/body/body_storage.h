@@ -29,6 +29,9 @@ struct BodyState {
     std::span<const double> gravity_factor{};  ///< of the global accelerations that it feels; empty = all of it
     std::span<const Load> load{};              ///< besides gravity; empty = nobody has one
 
+    /// Whose last flight others denied for the most part [slots]; empty = nobody's.
+    std::span<const std::uint8_t> denied{};
+
     /// Sum of the global accelerations, for the correction [m/s², W].
     Vec3 acceleration = Vec3::Zero();
     /// The length of a time step, for the resolution [s].
@@ -52,6 +55,7 @@ struct BodyState {
     }
     double gravityFactor(BodyIndex i) const { return gravity_factor.empty() ? 1.0 : gravity_factor[i]; }
     bool isFixed(BodyIndex i) const { return kind[i] != BodyKind::dynamic; }
+    bool isDenied(BodyIndex i) const { return !denied.empty() && denied[i] != 0; }
     Load loadOf(BodyIndex i) const { return load.empty() ? Load::none : load[i]; }
     /// What gravity gives a body in this time step if it is at rest [m/s, W].
     Vec3 fallOf(BodyIndex i) const { return gravityFactor(i) * (loadOf(i) == Load::none ? damped_fall : whole_fall); }
@@ -134,6 +138,11 @@ class BodyStorage : public BodyArrays {
     /// Sets the inverse mass properties from mass, inertia_B, kind and orientation.
     void updateMassProperties(BodyIndex i);
     BodyState state();
+
+    /// Whether a body did not move since its contacts were found last.
+    bool isWhereDetected(BodyIndex i) const {
+        return detected_position[i] == position[i] && detected_orientation[i].coeffs() == orientation[i].coeffs();
+    }
 
     /// Who touches whom. Exceptions of a body end with it.
     PairFilter filter;

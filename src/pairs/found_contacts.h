@@ -58,6 +58,7 @@ struct FoundContacts {
     std::vector<Run> runs;
     std::vector<Grown> grown;
     std::vector<Tightened> tightened;
+    std::vector<const Contact*> left;          ///< of the pair at hand, as of inheritImpulses()
     std::size_t count = 0;                     ///< of all runs
     std::size_t pair_begin = 0, pair_end = 0;  ///< the pairs that the thread tests
     bool others = false;                       ///< one of these has more or fewer contacts than before

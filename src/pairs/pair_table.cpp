@@ -234,9 +234,7 @@ void PairTable::findUnmoved(const PairsInput& input) {
     input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             if (bodies.kind[i] == BodyKind::hole) continue;
-            const bool same = bodies.detected_position[i] == bodies.position[i] &&
-                              bodies.detected_orientation[i].coeffs() == bodies.orientation[i].coeffs();
-            unmoved_[i] = known && same ? 1 : 0;
+            unmoved_[i] = known && bodies.isWhereDetected(static_cast<BodyIndex>(i)) ? 1 : 0;
         }
     });
     // What was found of them elsewhere is not known here.
@@ -304,7 +302,8 @@ bool PairTable::findStruck(const PairsInput& input, const DetectionRange& range,
 void PairTable::follow(const PairsInput& input, const DetectionRange& range, const MaybeStruck& whom, BodyIndex i) {
     const BodyStorage& bodies = input.bodies;
     // Whoever went back does so in every step if the smallest part of its velocity that leads there stays.
-    const bool stopped = !whom.stopped.empty() && whom.stopped[i] != 0;
+    const auto isOneOf = [&](std::span<const std::uint8_t> some) { return !some.empty() && some[i] != 0; };
+    const bool stopped = isOneOf(whom.stopped) || isOneOf(whom.held);
     if (!(stopped ? flies(bodies, i) : isStruck(bodies, range, i, ahead_[i]))) return;
     struck_[i] = 1;
     unmoved_[i] = 0;
@@ -352,9 +351,10 @@ void PairTable::addGrown(FoundContacts& part) {
     }
 }
 
-/// @param settled its bodies are where they were detected last and go nowhere @param part out: what was found
-void PairTable::detectPair(const PairsInput& input, std::span<const Contact> last, bool settled, Manifold& manifold,
+/// @param part out: what was found
+void PairTable::detectPair(const PairsInput& input, std::span<const Contact> last, PairState state, Manifold& manifold,
                            ContactPair& pair, FoundContacts& part) {
+    const bool settled = state == PairState::settled;
     // Most pairs are only near each other, and this is quickly told.
     if (!settled && !bounds_[pair.a].overlaps(bounds_[pair.b])) {
         // What is not written need not leave the processor's cache.
@@ -377,7 +377,9 @@ void PairTable::detectPair(const PairsInput& input, std::span<const Contact> las
         const auto before = pair.contactsIn(last);
         const std::size_t begin = part.found.size();
         collidePair(input.bodies, pair, range_, {input.bodies, range_, pair, ahead_}, manifold, part.found);
-        inheritImpulses(input.bodies, before, std::span(part.found).subspan(begin));
+        inheritImpulses(input.bodies, before, std::span(part.found).subspan(begin), part.left);
+        const bool went_back = state == PairState::went_back;
+        pair.ahead = keepAhead(input.bodies, range_, part.left, went_back, part.found) || ahead;
         part.deep =
             part.deep || std::ranges::any_of(std::span(part.found).subspan(begin), &isDeeperThanFlown<FoundContact>);
         pair.count = static_cast<std::uint32_t>(part.found.size() - begin);
@@ -394,7 +396,7 @@ void PairTable::detectPairs(const PairsInput& input, std::span<const Contact> la
         // Where nobody moves this is told without a look at the bodies.
         if (settled && pair.count == 0) continue;
         const std::uint32_t before = pair.touches() ? pair.count : 0;
-        detectPair(input, last, settled, manifold, pair, part);
+        detectPair(input, last, settled ? PairState::settled : PairState::moved, manifold, pair, part);
         part.others = part.others || (pair.touches() ? pair.count : 0) != before;
     }
 }
@@ -406,7 +408,7 @@ void PairTable::detectPairsBack(const PairsInput& input, std::span<const Contact
     for (ContactPair& pair : neighbours_.pairs().subspan(part.pair_begin, part.pair_end - part.pair_begin)) {
         const std::uint32_t before = pair.touches() ? pair.count : 0;
         if ((back[pair.a] | back[pair.b]) != 0 || !pair.isTested()) {
-            detectPair(input, last, false, manifold, pair, part);
+            detectPair(input, last, PairState::went_back, manifold, pair, part);
         } else {
             const std::size_t first = part.count;
             part.add(pair.first, before, true);

@@ -30,6 +30,7 @@ struct PairsInput {
 struct MaybeStruck {
     double fastest;                         ///< bodies are followed as far as this speed leads them [m/s]
     std::span<const std::uint8_t> stopped;  ///< [slots] 1 = what was foreseen of it did not hold; empty = nobody
+    std::span<const std::uint8_t> held;     ///< [slots] 1 = neither did it when it flew last; empty = nobody
     /// Those that have other velocities than in the last call; none = any body may have.
     std::optional<std::span<const BodyIndex>> changed;
 };
@@ -93,11 +94,18 @@ class PairTable {
     std::uint64_t layout() const { return layout_; }
 
   private:
+    /// What is known of the bodies of a pair.
+    enum class PairState : std::uint8_t {
+        moved,     ///< nothing
+        settled,   ///< they are where they were detected last, and go nowhere
+        went_back  ///< at least one of them was detected where it does not stay
+    };
+
     void findUnmoved(const PairsInput& input);
     void findBounds(const PairsInput& input);
     template <class Work>
     void forParts(const Executor& executor, const Work& work);
-    void detectPair(const PairsInput& input, std::span<const Contact> last, bool settled, Manifold& manifold,
+    void detectPair(const PairsInput& input, std::span<const Contact> last, PairState state, Manifold& manifold,
                     ContactPair& pair, FoundContacts& part);
     void detectPairs(const PairsInput& input, std::span<const Contact> last, FoundContacts& part);
     void detectPairsBack(const PairsInput& input, std::span<const Contact> last, std::span<const std::uint8_t> back,

@@ -1,8 +1,10 @@
 #include "pairs/warm_start.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "body/roundness.h"
+#include "math/arrays.h"
 #include "pairs/same_point.h"
 
 namespace cairn {
@@ -50,12 +52,14 @@ void beginContacts(std::span<Contact> contacts, const ContactsBegin& begins, con
     });
 }
 
-void inheritImpulses(const BodyStorage& bodies, std::span<const Contact> before, std::span<FoundContact> now) {
+void inheritImpulses(const BodyStorage& bodies, std::span<const Contact> before, std::span<FoundContact> now,
+                     std::vector<const Contact*>& left) {
+    left.clear();
     const auto isIdle = [](const Contact& c) {
         return c.last_impulse.isZero(0) && c.reference_impulse.isZero(0) && c.earlier_impulse.isZero(0) &&
                c.earlier_angular_impulse.isZero(0);
     };
-    if (now.empty() || std::ranges::all_of(before, isIdle)) return;
+    if (std::ranges::all_of(before, isIdle)) return;
     const auto [a, b] = std::pair(before.front().a, before.front().b);
     const Motion with_a(bodies, a);
     const Motion with_b(bodies, b);
@@ -82,12 +86,47 @@ void inheritImpulses(const BodyStorage& bodies, std::span<const Contact> before,
             nearest = distance;
             heir = &contact;
         }
-        if (heir == nullptr) continue;
+        if (heir == nullptr) {
+            if (old.normal.dot(old.last_impulse) > 0) left.push_back(&old);
+            continue;
+        }
         heir->last_impulse += old.last_impulse;
         heir->reference_impulse += old.reference_impulse;
         heir->earlier_impulse += old.earlier_impulse;
         heir->earlier_angular_impulse += old.earlier_angular_impulse;
     }
+}
+
+FoundContact foreseenAgain(const BodyStorage& bodies, const Contact& before, double allowed_overlap, double time) {
+    const Motion with_a(bodies, before.a);
+    const Vec3 on_a = with_a.movedPoint(before.point);
+    const Vec3 on_b = Motion(bodies, before.b).movedPoint(before.point);
+    const Vec3 normal = with_a.turned(before.normal);
+    const Vec3 passed = (on_a - on_b) / 2;
+    const double gap = std::max(0.0, before.distance + normal.dot(on_a - on_b));
+    return {.a = before.a,
+            .b = before.b,
+            .point = (on_a + on_b) / 2,
+            .normal = normal,
+            .distance = gap,
+            .allowed_overlap = allowed_overlap,
+            .allowed_closing = gap / time,
+            .slide = passed - passed.dot(normal) * normal,
+            .last_impulse = before.last_impulse,
+            .reference_impulse = before.reference_impulse,
+            .earlier_impulse = before.earlier_impulse,
+            .earlier_angular_impulse = before.earlier_angular_impulse};
+}
+
+bool keepAhead(const BodyStorage& bodies, const DetectionRange& range, std::span<const Contact* const> left,
+               bool went_back, std::vector<FoundContact>& found) {
+    const double time = range.foresight.time;
+    if (left.empty() || time == 0) return false;
+    const auto [a, b] = std::pair(left.front()->a, left.front()->b);
+    if (!went_back && !(bodies.isWhereDetected(a) && bodies.isWhereDetected(b))) return false;
+    const double allowed_overlap = range.overlapOf(bodies.r_min[a], bodies.r_min[b]);
+    for (const Contact* contact : left) appendTightly(found, foreseenAgain(bodies, *contact, allowed_overlap, time));
+    return true;
 }
 
 }  // namespace cairn

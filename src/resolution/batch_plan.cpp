@@ -54,12 +54,14 @@ struct ContactSums {
         Vec3 velocity = relativeVelocity(contact, bodies);
         if (moves_a != moves_b) velocity -= moves_a ? bodies.fallOf(contact.a) : Vec3(-bodies.fallOf(contact.b));
         mass += 1 / inverse;
+        const bool is_pulled = std::max(bodies.loadOf(contact.a), bodies.loadOf(contact.b)) == Load::pulled;
+        pulled = pulled || is_pulled;
+        // What others deny a body is no motion, or a jam would be solved as roughly as a fall, and never hold.
+        if (bodies.isDenied(contact.a) || bodies.isDenied(contact.b)) return;
         motion += velocity.squaredNorm() / inverse;
         // Friction that balances a force must not become less exact the faster the force makes its bodies slide.
-        const bool is_pulled = std::max(bodies.loadOf(contact.a), bodies.loadOf(contact.b)) == Load::pulled;
         const double along = contact.normal.dot(velocity);
         scale += (is_pulled ? along * along : velocity.squaredNorm()) / inverse;
-        pulled = pulled || is_pulled;
     }
 };
 

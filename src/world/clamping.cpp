@@ -138,6 +138,8 @@ void clampMotion(WorldState& world, const PairsInput& pairs) {
     BodyStorage& bodies = world.bodies;
     const bool any = takeBackFlown(world, pairs);
     for (BodyIndex i = 0; i < bodies.slots(); ++i) {
+        // Who sleeps flies when it wakes.
+        if (bodies.asleep[i] != 0) continue;
         const double part = data.before.way[i].part;
         const bool held = any && data.stopped[i] != 0 && part <= most_held;
         if (held && bodies.held[i] != 0) {

@@ -321,7 +321,7 @@ bool followStruck(WorldState& world, BodyState& bodies, const PairsInput& pairs)
     bool any = false;
     data.progress.begin(world.bodies.kind);
     // Whoever went back would get as deep again by what was foreseen of it.
-    MaybeStruck whom{data.fastest, data.stopped, {}};
+    MaybeStruck whom{data.fastest, data.stopped, world.bodies.held, {}};
     for (int n = 0; n < most_follows; ++n) {
         const std::size_t known = data.contacts.size();
         data.pairs.followStruck(pairs, whom, data.contacts, data.added);
@@ -341,7 +341,7 @@ bool followStruck(WorldState& world, BodyState& bodies, const PairsInput& pairs)
         for (const BatchView& group : data.surroundings.groups()) {
             data.changed.insert(data.changed.end(), group.bodies.begin(), group.bodies.end());
         }
-        whom = {data.fastest, {}, data.changed};
+        whom = {data.fastest, {}, {}, data.changed};
     }
     return any;
 }

@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "broad_phase/hash_grids.h"
 #include "pairs/foreseen.h"
 #include "pairs/pair_table.h"
+#include "pairs/warm_start.h"
 
 namespace cairn {
 namespace {
@@ -68,18 +71,45 @@ TEST(AtEnd, ThePlaceThatIsMetBeganWhereItIsNow) {
     EXPECT_GT(met, 0);
 }
 
-TEST(AtEnd, WhoWentBackIsFollowedHoweverSlowItIs) {
-    for (const bool went_back : {false, true}) {
+TEST(AtEnd, WhoWentBackNowOrWhenItMovedLastIsFollowedHoweverSlowItIs) {
+    const std::vector<std::uint8_t> nobody, rod{0, 1};
+    for (const auto& [stopped, held] : {std::pair(nobody, nobody), std::pair(rod, nobody), std::pair(nobody, rod)}) {
         RodOverGround scene(rod_allowed / 2);
         scene.pairs.detect(scene.input(), scene.contacts);
         ASSERT_TRUE(scene.contacts.empty());
         // Deeper than it may, by a way that nobody is followed for otherwise.
         scene.turn(2 * rod_allowed);
-        const std::vector<std::uint8_t> stopped{0, went_back ? std::uint8_t{1} : std::uint8_t{0}};
         std::vector<std::uint32_t> added;
-        scene.pairs.followStruck(scene.input(), {100, stopped, {}}, scene.contacts, added);
-        EXPECT_NE(added.empty(), went_back);
+        scene.pairs.followStruck(scene.input(), {100, stopped, held, {}}, scene.contacts, added);
+        EXPECT_EQ(added.empty(), stopped.empty() && held.empty());
     }
+}
+
+TEST(AtEnd, WhatPushesStaysForeseenAsLongAsNobodyMoves) {
+    RodOverGround scene(rod_allowed / 2);
+    // So little that they do not touch, but their bounds do.
+    scene.bodies.orientation[scene.ground] = Quat(Eigen::AngleAxisd(0.002, Vec3::UnitY()));
+    scene.pairs.detect(scene.input(), scene.contacts);
+    scene.turn(2 * rod_allowed);
+    const std::vector<std::uint8_t> rod{0, 1};
+    std::vector<std::uint32_t> added;
+    scene.pairs.followStruck(scene.input(), {100, rod, {}, {}}, scene.contacts, added);
+    ASSERT_FALSE(scene.contacts.empty());
+    scene.turn(0);
+    const auto detectAgain = [&](double push) {
+        for (Contact& contact : scene.contacts) contact.impulse = push * contact.normal;
+        beginContacts(scene.contacts, {}, Executor());
+        scene.pairs.detect(scene.input(), scene.contacts);
+    };
+    const double distance = scene.contacts.front().distance;
+    for (int n = 0; n < 2; ++n) {
+        detectAgain(3);
+        ASSERT_FALSE(scene.contacts.empty());
+        EXPECT_EQ(scene.contacts.front().distance, distance);
+        EXPECT_EQ(scene.contacts.front().last_impulse, 3 * scene.contacts.front().normal);
+    }
+    detectAgain(0);
+    EXPECT_TRUE(scene.contacts.empty()) << "it pushes no more";
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace cairn {
@@ -27,6 +28,14 @@ FoundContact foundAt(const Vec3& point) {
     return {.a = 0, .b = 1, .point = point, .normal = Vec3::UnitX(), .distance = 0};
 }
 
+/// Matches the impulses. @return the contacts of before that pushed and have no heir
+std::vector<const Contact*> inherit(const BodyStorage& bodies, std::span<const Contact> before,
+                                    std::span<FoundContact> now) {
+    std::vector<const Contact*> left;
+    inheritImpulses(bodies, before, now, left);
+    return left;
+}
+
 TEST(WarmStart, WhatStaysBeginsWithTheImpulsesOfTheLastStep) {
     for (const WarmStart warm_start : {WarmStart::off, WarmStart::on}) {
         std::vector<Contact> contacts = {
@@ -43,7 +52,7 @@ TEST(WarmStart, WhatStaysBeginsWithTheImpulsesOfTheLastStep) {
 
 TEST(WarmStart, ANewContactHasNoImpulse) {
     std::vector<FoundContact> now = {foundAt(Vec3(1, 0, 0))};
-    inheritImpulses(twoBodies(), {}, now);
+    inherit(twoBodies(), {}, now);
     EXPECT_EQ(now[0].last_impulse, Vec3::Zero());
     EXPECT_EQ(now[0].reference_impulse, Vec3::Zero());
 }
@@ -57,7 +66,7 @@ TEST(WarmStart, ContactsAreRecognisedByTheirPlaceAlsoOnTurnedAndMovedBodies) {
         bodies.position[b] += Vec3(0, 0, 5);
     }
     std::vector<FoundContact> now = {foundAt(Vec3(1, 0.3, 5)), foundAt(Vec3(1, -0.3, 5))};
-    inheritImpulses(bodies, before, now);
+    inherit(bodies, before, now);
     EXPECT_EQ(now[0].last_impulse.x(), 2);
     EXPECT_EQ(now[1].last_impulse.x(), 1);
     EXPECT_EQ(now[1].reference_impulse.x(), 2);
@@ -66,12 +75,12 @@ TEST(WarmStart, ContactsAreRecognisedByTheirPlaceAlsoOnTurnedAndMovedBodies) {
 TEST(WarmStart, AnImpulseIsNeverGivenTwiceAndMergedPointsKeepTheSum) {
     const BodyStorage bodies = twoBodies();
     std::vector<FoundContact> split = {foundAt(Vec3(1, 0.01, 0)), foundAt(Vec3(1, -0.02, 0))};
-    inheritImpulses(bodies, std::vector{contactAt(Vec3(1, 0, 0), Vec3(1, 0, 0))}, split);
+    inherit(bodies, std::vector{contactAt(Vec3(1, 0, 0), Vec3(1, 0, 0))}, split);
     EXPECT_EQ(split[0].last_impulse.x() + split[1].last_impulse.x(), 1);
     std::vector<FoundContact> merged = {foundAt(Vec3(1, 0, 0))};
-    inheritImpulses(
-        bodies, std::vector{contactAt(Vec3(1, 0.01, 0), Vec3(4, 0, 0)), contactAt(Vec3(1, -0.02, 0), Vec3(5, 0, 0))},
-        merged);
+    inherit(bodies,
+            std::vector{contactAt(Vec3(1, 0.01, 0), Vec3(4, 0, 0)), contactAt(Vec3(1, -0.02, 0), Vec3(5, 0, 0))},
+            merged);
     EXPECT_EQ(merged[0].last_impulse.x(), 9);
 }
 
@@ -81,7 +90,7 @@ TEST(WarmStart, PointsAtOnePlaceAreToldApartByTheirDirections) {
     before[1].normal = Vec3::UnitY();
     std::vector<FoundContact> now = {foundAt(Vec3(1, 0, 0)), foundAt(Vec3(1, 0, 0))};
     now[0].normal = Vec3::UnitY();
-    inheritImpulses(bodies, before, now);
+    inherit(bodies, before, now);
     EXPECT_EQ(now[0].last_impulse.x(), 2);
     EXPECT_EQ(now[1].last_impulse.x(), 1);
 }
@@ -89,7 +98,7 @@ TEST(WarmStart, PointsAtOnePlaceAreToldApartByTheirDirections) {
 TEST(WarmStart, FarPointsGiveNothing) {
     const BodyStorage bodies = twoBodies();
     std::vector<FoundContact> far = {foundAt(Vec3(1, 0.5, 0))};
-    inheritImpulses(bodies, std::vector{contactAt(Vec3(1, 0, 0), Vec3(1, 0, 0))}, far);
+    inherit(bodies, std::vector{contactAt(Vec3(1, 0, 0), Vec3(1, 0, 0))}, far);
     EXPECT_EQ(far[0].last_impulse, Vec3::Zero());
 }
 
@@ -102,7 +111,7 @@ TEST(WarmStart, AContactRollsOnWithARoundBody) {
     const std::vector before = {contactAt(Vec3(1, 0, 0), Vec3(3, 0, 0))};
     const auto inherited = [&](const Vec3& point) {
         std::vector<FoundContact> now = {foundAt(point)};
-        inheritImpulses(bodies, before, now);
+        inherit(bodies, before, now);
         return now[0].last_impulse.x();
     };
     bodies.shape[0] = bodies.shape[1] = Box{Vec3(2, 2, 2)};
@@ -110,6 +119,32 @@ TEST(WarmStart, AContactRollsOnWithARoundBody) {
     bodies.shape[0] = Sphere{1};
     EXPECT_EQ(inherited(Vec3(1, 0, 0) + way), 3);
     EXPECT_EQ(inherited(Vec3(1, 0, 0) + 1.5 * way), 0) << "farther than it went";
+}
+
+TEST(WarmStart, WhatPushedAndHasNoHeirIsTold) {
+    const BodyStorage bodies = twoBodies();
+    const std::vector before = {contactAt(Vec3(1, 0, 0), Vec3(1, 0, 0)), contactAt(Vec3(1, 0.5, 0), Vec3(2, 0, 0)),
+                                contactAt(Vec3(1, -0.5, 0), Vec3(0, 0, 0))};
+    std::vector<FoundContact> now = {foundAt(Vec3(1, 0, 0))};
+    EXPECT_EQ(inherit(bodies, before, now), std::vector{&before[1]});
+    EXPECT_EQ(inherit(bodies, before, {}), (std::vector{&before[0], &before[1]}));
+}
+
+TEST(WarmStart, AContactIsForeseenAgainFromWhereItsBodiesWentBackTo) {
+    BodyStorage bodies = twoBodies();
+    // A comes from (−0.1, 0, 0.2): it closes by 0.1 and goes down by 0.2 until it touches.
+    bodies.position[0] += Vec3(-0.1, 0, 0.2);
+    Contact before = contactAt(Vec3(1, 0, 0), Vec3(3, 0, 0));
+    before.normal = -Vec3::UnitX();
+    before.distance = 0.01;
+    const FoundContact again = foreseenAgain(bodies, before, 0.05, 0.5);
+    EXPECT_DOUBLE_EQ(again.distance, 0.11);
+    EXPECT_DOUBLE_EQ(again.allowed_closing, 0.22);
+    EXPECT_EQ(again.allowed_overlap, 0.05);
+    EXPECT_TRUE(again.point.isApprox(Vec3(0.95, 0, 0.1))) << "halfway between its places on both bodies";
+    EXPECT_TRUE(again.slide.isApprox(Vec3(0, 0, 0.1)));
+    EXPECT_EQ(again.last_impulse, before.last_impulse);
+    EXPECT_EQ(again.reference_impulse, before.reference_impulse);
 }
 
 }  // namespace

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <numeric>
+#include <vector>
 
 #include "resolution/batch_fixture.h"
 
@@ -41,6 +44,26 @@ TEST(BatchPlan, NoDirectStepsWhereLoopsMayMakeTheFactorDense) {
     // With n loops at most a third of them make a dense block, whose n³/162 products may be 25 per contact.
     EXPECT_TRUE(mayLeap(1000, 167));
     EXPECT_FALSE(mayLeap(1000, 168));
+}
+
+TEST(BatchPlan, WhatOthersDenyABodyIsNoMotion) {
+    test::Pile pile;
+    for (BodyIndex i = 0; i < 3; ++i) {
+        pile.addSphere(Vec3(0, 0, i));
+        pile.v[i] = Vec3(0, 0, i);
+    }
+    for (BodyIndex i = 0; i < 2; ++i) pile.touch(i, i + 1, Vec3(0, 0, i + 0.5), -Vec3::UnitZ());
+    const std::vector<BodyIndex> bodies = {0, 1, 2};
+    const std::vector<std::uint32_t> contacts = {0, 1};
+    const auto motion = [&](const std::vector<std::uint8_t>& denied) {
+        BodyState state = pile.state();
+        state.denied = denied;
+        return kindOf({bodies, contacts, {}}, pile.contacts, state, {}).motion;
+    };
+    const double all = motion({});
+    EXPECT_GT(all, 0);
+    EXPECT_DOUBLE_EQ(motion({1, 0, 0}), all / std::sqrt(2.0)) << "one of two contacts";
+    EXPECT_EQ(motion({0, 1, 0}), 0);
 }
 
 TEST(BatchPlan, WhatForcesPullIsSolvedToItsOwnToleranceIfThatIsLess) {

@@ -55,6 +55,14 @@ TEST(Piles, ThatFallDownAShaftDoNotGetFarIntoEachOther) {
     }
 }
 
+TEST(Piles, ThatJamInAShaftCarryTheirWeightAndSleep) {
+    // Each needs that contacts of flights that were denied go on carrying: without it half of each wakes the other half
+    // in every step.
+    const Pile plates{.shape = PileShape::plate, .depth = 1, .impact = 40, .step = 0.25, .seed = 92};
+    const Pile mixed{.shape = PileShape::mixed, .depth = 1, .step = 0.25, .seed = 120};
+    for (const Pile& pile : {plates, mixed}) expectRest(pile);
+}
+
 TEST(Piles, AreNamedByTheirFactors) {
     EXPECT_EQ(nameOf(Pile{.shape = PileShape::rod, .graded = true, .impact = 10}),
               "rod20_n200_deep10_v10_s1_d0.1_mu0.2_e0");
