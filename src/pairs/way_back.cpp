@@ -262,6 +262,8 @@ void limitToDepths(const WaysInput& input, std::span<const MovedBody> moved, std
         [&](std::size_t begin, std::size_t end, int) {
             for (const ContactPair& pair : input.pairs.subspan(begin, end - begin)) {
                 if (!pair.touches() || !(moved[pair.a].way + moved[pair.b].way > 0)) continue;
+                // Who came back to where it was found is as deep as was found, to the last bit.
+                if (input.bodies.isWhereDetected(pair.a) && input.bodies.isWhereDetected(pair.b)) continue;
                 const auto known = contacts.subspan(pair.first, pair.count);
                 if (std::ranges::none_of(known, &isDeeperThanFlown<Contact>)) continue;
                 const double depth = PairOnWay(input, pair).depthAt(1);
