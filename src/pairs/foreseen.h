@@ -50,6 +50,8 @@ struct BodyAhead {
     Vec3 w = Vec3::Zero();  ///< [rad/s, W]
     double turning = 0;     ///< largest speed of a surface point about the centre, 0 for a ball [m/s]
     double reach = 0;       ///< largest way of a surface point [m]; 0 if it is no more than a small part of the body
+
+    bool isStill() const { return reach == 0 && turning == 0 && v.isZero(0); }
 };
 
 /// Fills in all but the bounds of now. @pre ahead.now

@@ -249,8 +249,8 @@ void PairTable::findBounds(const PairsInput& input) {
     settled_.resize(bodies.slots());
     input.executor.forBlocks(bodies.slots(), [&](std::size_t begin, std::size_t end, int) {
         for (auto i = static_cast<BodyIndex>(begin); i < end; ++i) {
-            // What is awake may have been stopped or pushed since.
-            const bool same = range_.foresight.time == 0 || (bodies.asleep[i] != 0 && ahead_[i].reach == 0);
+            // What is awake may have been stopped or pushed since, and who fell asleep was seen to move a little.
+            const bool same = range_.foresight.time == 0 || (bodies.asleep[i] != 0 && ahead_[i].isStill());
             settled_[i] = asks_all_ ? 0 : unmoved_[i];
             if (bodies.kind[i] == BodyKind::hole || (unmoved_[i] != 0 && same)) continue;
             findBoundsOf(bodies, i);

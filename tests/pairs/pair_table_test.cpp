@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "broad_phase/hash_grids.h"
@@ -95,6 +96,35 @@ TEST(PairTable, AnotherMarginAndForgottenContactsFindAllAnew) {
     row.detect();
     EXPECT_FALSE(row.isMarked(0));
     EXPECT_FALSE(row.isMarked(1));
+}
+
+/// A cube that stands on another one with an edge, and whose opposite edge is just too slow to get down in a step.
+struct TiltedCube : Row {
+    TiltedCube() : Row(2) {
+        range = {.threshold = 0.03, .foresight = {.time = 1}};
+        const double tilt = 0.05;
+        for (BodyIndex i = 0; i < 2; ++i) {
+            bodies.shape[i] = Box{Vec3::Constant(2)};
+            bodies.r_min[i] = 1;
+            bodies.r_max[i] = std::sqrt(3.0);
+        }
+        bodies.orientation[1] = Quat(Eigen::AngleAxisd(tilt, Vec3::UnitY()));
+        bodies.position[1] = Vec3(0, 0, 1 + std::cos(tilt) + std::sin(tilt) - 0.01);
+    }
+};
+
+TEST(PairTable, WhoFellAsleepIsNotSeenToMoveAsItDidBefore) {
+    TiltedCube cubes;
+    cubes.bodies.v[0] = Vec3(0, 0, 0.009);
+    cubes.detect();
+    cubes.bodies.asleep[0] = 1;
+    cubes.bodies.v[0].setZero();
+    const double gap = 2 * std::sin(0.05) - 0.01;
+    for (const double speed : {gap - 0.005, gap + 0.005}) {
+        cubes.bodies.v[1] = Vec3(0, 0, -speed);
+        cubes.detect();
+        EXPECT_EQ(cubes.contacts.size(), speed < gap ? 2 : 4);
+    }
 }
 
 TEST(PairTable, PairsThatJointsKeepApartDoNotTouchUntilTheJointsAreGone) {

@@ -216,6 +216,21 @@ TEST(WayBack, LeadsToWhereTheCorrectionPressesNobodyIntoOthers) {
     EXPECT_TRUE(pressed(4).empty());
 }
 
+TEST(WayBack, LimitsNoDepthOfBodiesThatAreBackWhereTheyWereFound) {
+    TwoBalls balls;
+    balls.addOnWay(1.9, 1.9);
+    balls.find();
+    ASSERT_EQ(balls.contacts.size(), 1);
+    // Deeper than balls so far apart are, as to first order the correction may have it.
+    balls.contacts[0].distance = -0.2;
+    const std::vector<MovedBody> moved{{}, {.way = 0.01}};
+    limitToDepths(balls.input(), moved, balls.contacts);
+    EXPECT_EQ(balls.contacts[0].distance, -0.2);
+    balls.bodies.position[1].x() += 0.01;
+    limitToDepths(balls.input(), moved, balls.contacts);
+    EXPECT_NEAR(balls.contacts[0].distance, -0.09, 0.01);
+}
+
 TEST(WayBack, IsAPoseOnTheWay) {
     BodyWay way;
     way.begin.position = Vec3(1, 0, 0);
