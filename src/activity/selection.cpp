@@ -318,6 +318,14 @@ void Selection::revert(const PartOfBatch& part) {
     }
 }
 
+/// Whether a body that is resolved along goes elsewhere. Whose last flight was denied goes nowhere with what gravity
+/// gives it, as long as it is supported: else those who jam wake each other for ever.
+bool Selection::isPushed(BodyIndex i) const {
+    const auto moves = [&](const Vec3& v) { return isPush(v, bodies().w[i], squared_reach_[i], input_->wake_speed); };
+    const Vec3& v = bodies().v[i];
+    return moves(v) && (!bodies().isDenied(i) || moves(v - bodies().fallOf(i)));
+}
+
 /// Wakes who was resolved along and pushed, with those tied to it, and leaves the others as they were.
 void Selection::wakePushed(const PartOfBatch& part) {
     const BatchView& batch = batchOf(part);
@@ -337,7 +345,7 @@ void Selection::wakePushed(const PartOfBatch& part) {
         // Who is resolved along slept until now; that it was struck by the resolution says nothing.
         bodies().asleep[i] = 1;
         bodies().woken[i] = WakeReason::none;
-        if (isPush(bodies().v[i], bodies().w[i], squared_reach_[i], input_->wake_speed)) wake(i);
+        if (isPushed(i)) wake(i);
     }
     spreadOverJoints(
         batch, [&](BodyIndex i) { return part_[i] == Part::free && !bodies().isFixed(i); },

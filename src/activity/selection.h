@@ -112,6 +112,7 @@ class Selection {
     bool findDisturbed(const PartOfBatch& part, Scratch& scratch);
     void disturb(BodyIndex i, const Vec3& impulse, const Vec3& r, Scratch& scratch);
     void revert(const PartOfBatch& part);
+    bool isPushed(BodyIndex i) const;
     void wakePushed(const PartOfBatch& part);
     BatchView viewOf(const PartOfBatch& part);
     template <class Work>

@@ -94,6 +94,25 @@ TEST(Selection, WhoIsResolvedAlongSleepsOnUnlessItIsPushed) {
     }
 }
 
+TEST(Selection, WhatGravityGivesPushesNobodyWhoseLastFlightWasDenied) {
+    for (const bool denied : {false, true}) {
+        for (const double falls : {1.0, 3.0}) {
+            Pile pile;
+            pile.wake_speed = wake_speed;
+            pile.gravity = Vec3(0, 0, -10);
+            const Vec3 fall = pile.gravity / 240;
+            const BodyIndex above = pile.addSphere(Vec3(0, 0, 1));
+            const BodyIndex below = pile.addSphere(Vec3(0, 0, 0));
+            pile.touch(above, below, Vec3(0, 0, 0.5), Vec3::UnitZ());
+            pile.v[above] = falls * fall;
+            pile.asleep[below] = 1;
+            pile.held[below] = denied ? 1 : 0;
+            pile.resolve(holdingSleepers());
+            EXPECT_EQ(pile.asleep[below], denied && falls == 1 ? 1 : 0) << denied << " " << falls;
+        }
+    }
+}
+
 TEST(Selection, AContactOfTwoAwakeBodiesIsTheNextReference) {
     Pile pile = row(3);
     pile.v[0] = Vec3(3, 0, 0);
