@@ -65,6 +65,11 @@ TEST(Piles, ThatJamInAShaftCarryTheirWeightAndSleep) {
     for (const Pile& pile : {plates, mixed}) expectRest(pile);
 }
 
+TEST(Piles, ThatSinkInAShaftComeDownTogether) {
+    // Who could only fly as far as the one below it flies, and is held for it, sinks by a few millimetres per second.
+    expectRest({.shape = PileShape::cylinder, .depth = 1, .impact = 40, .step = 0.25, .seed = 104});
+}
+
 TEST(Piles, ThatJamGoOnBitForBitWhereTheyAreRestored) {
     // Most of the correction is taken back there, and who sleeps is woken and comes to rest again.
     const Pile pile{.shape = PileShape::cylinder, .count = 60, .depth = 1, .step = 0.25, .seed = 102};
