@@ -107,9 +107,8 @@ BatchKind kindOf(const BatchView& batch, std::span<const Contact> contacts, cons
     kind.motion = std::sqrt(sums.scale);
     kind.depth = count > 0 ? std::sqrt(sums.depth / count) : 0;
     kind.safe_way = safe_multiple * least_allowed;
-    kind.framed = kind.framed || kind.rolling > 0;
     const bool rests = sums.motion <= settings.restitution_threshold * settings.restitution_threshold * sums.mass;
-    kind.may_step_directly = rests && !kind.framed && isChain(batch, contacts, bodies);
+    kind.may_step_directly = rests && !kind.framed && kind.rolling == 0 && isChain(batch, contacts, bodies);
     const std::size_t size = kind.may_step_directly ? 0 : batch.contacts.size();
     kind.order = size >= coloured_contacts ? SweepOrder::by_colours
                  : size >= wide_contacts   ? SweepOrder::in_order

@@ -7,7 +7,7 @@ namespace cairn {
 
 /// What a batch is, as far as its sweeps depend on it.
 struct BatchKind {
-    bool framed = false;             ///< it has joints or rolling friction, which work with frames of the contacts
+    bool framed = false;             ///< it has joints, which work with frames of the contacts
     bool two_frictions = false;      ///< some contact slides with another friction than it sticks with
     bool may_step_directly = false;  ///< direct steps are taken where sweeps are not enough
     SweepOrder order = SweepOrder::one_by_one;

@@ -72,8 +72,7 @@ ContactWrench ContactLaw::resolveRolling(const LocalBatch& local, const ContactF
     }
     Vec6 excess = twist;
     excess[0] += restitution * velocity[0];
-    const Vec6 wrench =
-        solveRolling(contact, frame.static_friction, frame.kinetic_friction, excess, Vec6::Zero(), RollingRounds::many);
+    const Vec6 wrench = solveRolling(contact, frame.static_friction, frame.kinetic_friction, excess, Vec6::Zero());
     return {wrench.head<3>(), wrench.tail<3>()};
 }
 

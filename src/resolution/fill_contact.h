@@ -50,4 +50,30 @@ struct Sources {
     wide.impulse = where(pushes, wide.impulse, Triple<Lanes>());
 }
 
+/// Likewise. What turns begins with nothing.
+[[gnu::always_inline]] inline void fillContact(WideRollingContact& wide, const PgsBody<Lanes>& a,
+                                               const PgsBody<Lanes>& b, const Sources& sources,
+                                               std::span<const Vec3> position, const ResolutionSettings& settings) {
+    WideContact& plain = wide;
+    fillContact(plain, a, b, sources, position, settings);
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        setLane(wide.rolling, lane, sources.contacts[lane]->rolling_friction);
+        setLane(wide.spinning, lane, sources.contacts[lane]->spinning_friction);
+    }
+    wide.turning = {};
+    wide.squared_lever = Lanes{};
+    BasicCoupling<Lanes> coupling;
+    BasicSymmetric3<Lanes> turn_k;
+    const auto add = [&](const BasicSymmetric3<Lanes>& i, const Triple<Lanes>& r) __attribute__((always_inline)) {
+        addCoupling(i, r, coupling);
+        turn_k = {turn_k.xx + i.xx, turn_k.xy + i.xy, turn_k.xz + i.xz,
+                  turn_k.yy + i.yy, turn_k.yz + i.yz, turn_k.zz + i.zz};
+        const Lanes lever = where(i.xx + i.yy + i.zz > 0, r.squaredNorm(), Lanes{});
+        wide.squared_lever = where(lever > wide.squared_lever, lever, wide.squared_lever);
+    };
+    add(a.inertia_inv, wide.r_a);
+    add(b.inertia_inv, wide.r_b);
+    setTurning(wide, turn_k, coupling);
+}
+
 }  // namespace cairn

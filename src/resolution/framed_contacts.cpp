@@ -1,9 +1,11 @@
 #include "resolution/framed_contacts.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
-#include <type_traits>
 
 #include "resolution/contact_law.h"
+#include "resolution/lane_contact.h"
 
 namespace cairn {
 
@@ -55,11 +57,24 @@ void FramedContacts::beginContact(Framed& framed, ContactFrame& frame, const Pgs
     }
     setInvertible(framed, k);
     mendSingular(framed);
+    if (rolls(frame)) beginRolling(framed, frame, local);
     framed.friction = contact.static_friction;
     const double closing = framed.normal.dot(relativeVelocity(framed, a, b));
     framed.target = ContactLaw::separatingSpeed(pgs.settings, contact, closing);
     framed.impulse = Triple1(contact.last_impulse);
     if (!(framed.normal.dot(framed.impulse) > 0) || !isResolvable(framed)) framed.impulse = Triple1();
+}
+
+/// @pre K is known
+void FramedContacts::beginRolling(Framed& framed, const ContactFrame& frame, const LocalBatch& local) {
+    const RollingContact& contact = local.rolling[frame.rolling];
+    framed.rolling = contact.rolling;
+    framed.spinning = contact.spinning;
+    const auto inWorld = [&](const Mat3& m) -> Mat3 { return frame.basis * m * frame.basis.transpose(); };
+    const Mat3 c = inWorld(contact.k.topRightCorner<3, 3>());
+    setTurning(framed, Symmetric3::from(inWorld(contact.k.bottomRightCorner<3, 3>())),
+               {Triple1(Vec3(c.row(0))), Triple1(Vec3(c.row(1))), Triple1(Vec3(c.row(2)))});
+    framed.squared_lever = std::max(framed.r_a.squaredNorm(), framed.r_b.squaredNorm());
 }
 
 void FramedContacts::sweepForth(LocalBatch& local) {
@@ -87,61 +102,46 @@ void FramedContacts::visit(std::size_t i, LocalBatch& local) {
 void FramedContacts::visitRolling(std::size_t i, LocalBatch& local) {
     Framed& contact = contacts_[i];
     const ContactFrame& frame = frames_[i];
-    Vec6 excess = relativeTwist(frame, local.bodies[frame.a], local.bodies[frame.b]);
-    excess[0] -= contact.target;
-    Vec6 present;
-    present << frame.basis.transpose() * toVec3(contact.impulse), contact.turning;
-    const Vec6 next = solveRolling(local.rolling[frame.rolling], contact.friction, contact.friction, excess, present,
-                                   RollingRounds::few);
-    const Vec3 impulse = frame.basis * next.head<3>();
-    local.pushWorld(frame, impulse - toVec3(contact.impulse));
-    local.turn(frame, next.tail<3>() - contact.turning);
-    contact.impulse = Triple1(impulse);
-    contact.turning = next.tail<3>();
+    const LocalBody& a = local.bodies[contact.a];
+    const LocalBody& b = local.bodies[contact.b];
+    const auto turn = [&] { return Triple1(a.w) - Triple1(b.w); };
+    const Triple1 velocity = relativeVelocity(contact, read(a), read(b));
+    const BasicWrench<double> rigid = rigidWrench(contact, velocity - contact.target * contact.normal, turn());
+    const bool within = isWithin(contact, rigid);
+    const Triple1 impulse = within ? rigid.impulse : projectedImpulse(contact, velocity);
+    if (!isUsable(impulse)) return;
+    local.pushWorld(frame, toVec3(impulse - contact.impulse));
+    contact.impulse = impulse;
+    const Triple1 turning = within ? rigid.turning : turningSteps(contact, turn());
+    if (!isUsable(turning)) return;
+    local.turn(frame, frame.basis.transpose() * toVec3(turning - contact.turning));
+    contact.turning = turning;
 }
 
 void FramedContacts::save() {
-    for (Framed& contact : contacts_) {
-        contact.before = contact.impulse;
-        contact.turning_before = contact.turning;
-    }
+    for (Framed& contact : contacts_) contact.before = contact.accumulated();
 }
 
-SweepChange FramedContacts::change(const LocalBatch& local) const {
+SweepChange FramedContacts::change() const {
     SweepChange change;
     for (const Framed& contact : contacts_) {
         if (!isResolvable(contact)) continue;
-        const Triple1 difference = contact.impulse - contact.before;
-        change.add(
-            {difference.squaredNorm() / contact.normal_mass, squareRoot((contact.k * difference).squaredNorm())});
-    }
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-        if (!rolls(frames_[i])) continue;
-        const Mat6& k = local.rolling[frames_[i].rolling].k;
-        const Vec3 difference = contacts_[i].turning - contacts_[i].turning_before;
-        change.add({k(3, 3) * difference.squaredNorm(), (k.topRightCorner<3, 3>() * difference).norm()});
+        const BasicChange<double> by = changeBy(contact, contact.accumulated() - contact.before);
+        change.add({by.squared, std::sqrt(by.squared_speed)});
     }
     return change;
 }
 
 void FramedContacts::restart() {
-    for (Framed& contact : contacts_) {
-        contact.direction = Triple1();
-        contact.turning_direction.setZero();
-    }
+    for (Framed& contact : contacts_) contact.direction = {};
 }
 
 void FramedContacts::accelerate(double beta) {
-    const auto advance = [beta](auto& impulse, const auto& before, auto& direction) {
-        using Vector = std::remove_cvref_t<decltype(before)>;
-        const Vector change = impulse - before;
-        const Vector step = beta * direction;
-        impulse += step;
-        direction = change + step;
-    };
     for (Framed& contact : contacts_) {
-        advance(contact.impulse, contact.before, contact.direction);
-        advance(contact.turning, contact.turning_before, contact.turning_direction);
+        const BasicWrench<double> change = contact.accumulated() - contact.before;
+        const BasicWrench<double> step = beta * contact.direction;
+        contact.add(step);
+        contact.direction = change + step;
     }
 }
 
@@ -168,7 +168,7 @@ void FramedContacts::finish(const PgsBatch& pgs) {
         contact.impulse += frame.impulse;
         if (!rolls(frame)) continue;
         RollingContact& rolling = local.rolling[frame.rolling];
-        rolling.impulse_W = frame.basis * framed.turning;
+        rolling.impulse_W = toVec3(framed.turning);
         contact.angular_impulse += rolling.impulse_W;
     }
     local.joints.settle(frames_, local.rolling, local.bodies);

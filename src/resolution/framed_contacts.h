@@ -1,5 +1,5 @@
-/// @file Contacts that work with frames and one at a time: those of jointed bodies, whose impulses change all that is
-/// tied together, and those that resist rolling.
+/// @file Contacts of jointed bodies, whose impulses change all that is tied together: they work with frames and one at
+/// a time.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "resolution/pgs_batch.h"
-#include "resolution/pgs_contact.h"
+#include "resolution/rolling_contact.h"
 
 namespace cairn {
 
@@ -23,7 +23,7 @@ class FramedContacts {
     /// Remembers the impulses before a sweep.
     void save();
     /// What changed since save().
-    SweepChange change(const LocalBatch& local) const;
+    SweepChange change() const;
     /// Adds β times the last direction to the impulses; the new direction is the change since save() plus that.
     void accelerate(double beta);
     /// Forgets the last direction.
@@ -34,17 +34,15 @@ class FramedContacts {
     void finish(const PgsBatch& pgs);
 
   private:
-    /// A contact, and the angular impulse if it resists rolling.
-    struct Framed : PgsContact {
-        std::uint32_t source = 0;               ///< index of its Contact
-        Triple1 before;                         ///< impulse at the beginning of the sweep [N·s]
-        Triple1 direction;                      ///< last direction of the conjugate gradients [N·s]
-        Vec3 turning = Vec3::Zero();            ///< accumulated angular impulse on A, contact coordinates [N·m·s]
-        Vec3 turning_before = Vec3::Zero();     ///< at the beginning of the sweep [N·m·s]
-        Vec3 turning_direction = Vec3::Zero();  ///< last direction of the conjugate gradients [N·m·s]
+    /// A contact, of which only some resist rolling.
+    struct Framed : ContactEnds, BasicRollingContact<double> {
+        std::uint32_t source = 0;       ///< index of its Contact
+        BasicWrench<double> before;     ///< what it has accumulated at the beginning of the sweep
+        BasicWrench<double> direction;  ///< last direction of the conjugate gradients
     };
 
     void beginContact(Framed& framed, ContactFrame& frame, const PgsBatch& pgs);
+    void beginRolling(Framed& framed, const ContactFrame& frame, const LocalBatch& local);
     void visit(std::size_t i, LocalBatch& local);
     void visitRolling(std::size_t i, LocalBatch& local);
 

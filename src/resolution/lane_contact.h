@@ -8,6 +8,7 @@
 
 #include "resolution/lane_groups.h"
 #include "resolution/pgs_contact.h"
+#include "resolution/rolling_contact.h"
 
 namespace cairn {
 
@@ -134,6 +135,102 @@ template <class Number>
     const Triple<Number> next = where(usable, impulse, contact.impulse);
     push(contact, next - contact.impulse, a, b);
     contact.impulse = next;
+}
+
+/// A visit on the way back, which does the same in reverse.
+template <class Number>
+[[gnu::always_inline]] inline void visitBack(BasicPgsContact<Number>& contact, PgsBody<Number>& a, PgsBody<Number>& b) {
+    visit(contact, a, b);
+}
+
+/// A visit of a contact that resists rolling: all of it at once where bounds allow that; else the impulse and what
+/// there is against turning, one after the other.
+template <class Number>
+class RollingVisit {
+    using Vector = Triple<Number>;
+
+  public:
+    [[gnu::always_inline]] RollingVisit(BasicRollingContact<Number>& contact, PgsBody<Number>& a, PgsBody<Number>& b)
+        : contact_(contact),
+          a_(a),
+          b_(b),
+          rigid_(rigidWrench(contact, relativeVelocity(contact, a, b) - contact.target * contact.normal, a.w - b.w)),
+          within_(isWithin(contact, rigid_)) {}
+
+    [[gnu::always_inline]] void push() {
+        const bool all = holdsInAll(within_);
+        const Vector impulse =
+            all ? rigid_.impulse
+                : where(within_, rigid_.impulse, projectedImpulse(contact_, relativeVelocity(contact_, a_, b_)));
+        const Vector next = where(isUsable(impulse), impulse, contact_.impulse);
+        cairn::push(contact_, next - contact_.impulse, a_, b_);
+        contact_.impulse = next;
+    }
+    [[gnu::always_inline]] void turn() {
+        const bool all = holdsInAll(within_);
+        const Vector turning =
+            all ? rigid_.turning : where(within_, rigid_.turning, turningSteps(contact_, a_.w - b_.w));
+        set(where(isUsable(turning), turning, contact_.turning));
+    }
+    /// Takes back what an impulse that came later does not allow.
+    [[gnu::always_inline]] void bound() {
+        if (!holdsInAll(within_)) set(where(within_, contact_.turning, boundedTurning(contact_)));
+    }
+
+  private:
+    [[gnu::always_inline]] void set(const Vector& turning) {
+        const Vector change = turning - contact_.turning;
+        a_.w += a_.inertia_inv * change;
+        b_.w -= b_.inertia_inv * change;
+        contact_.turning = turning;
+    }
+    [[gnu::always_inline]] auto isUsable(const Vector& u) const {
+        return (u.squaredNorm() < std::numeric_limits<double>::infinity()) & (contact_.normal_mass > 0);
+    }
+
+    BasicRollingContact<Number>& contact_;
+    PgsBody<Number>& a_;
+    PgsBody<Number>& b_;
+    BasicWrench<Number> rigid_;
+    decltype(Number{} > 0) within_;
+};
+
+template <class Number>
+[[gnu::always_inline]] inline void visit(BasicRollingContact<Number>& contact, PgsBody<Number>& a, PgsBody<Number>& b) {
+    RollingVisit<Number> visit(contact, a, b);
+    visit.push();
+    visit.turn();
+}
+template <class Number>
+[[gnu::always_inline]] inline void visitBack(BasicRollingContact<Number>& contact, PgsBody<Number>& a,
+                                             PgsBody<Number>& b) {
+    RollingVisit<Number> visit(contact, a, b);
+    visit.turn();
+    visit.push();
+    visit.bound();
+}
+
+/// What a difference of impulses changes.
+template <class Number>
+struct BasicChange {
+    Number squared;        ///< weighted by the normal part of K; not finite where there is none
+    Number squared_speed;  ///< of the velocity there
+};
+template <class Number>
+[[gnu::always_inline]] inline BasicChange<Number> changeBy(const BasicPgsContact<Number>& contact,
+                                                           const Triple<Number>& difference) {
+    return {difference.squaredNorm() / contact.normal_mass, (contact.k * difference).squaredNorm()};
+}
+template <class Number>
+[[gnu::always_inline]] inline BasicChange<Number> changeBy(const BasicRollingContact<Number>& contact,
+                                                           const BasicWrench<Number>& difference) {
+    const BasicPgsContact<Number>& plain = contact;
+    const BasicChange<Number> by_impulse = changeBy(plain, difference.impulse);
+    const Number squared = difference.turning.squaredNorm() / contact.spin_inertia;
+    const Number speed = contact.squared_lever * (contact.turn_k * difference.turning).squaredNorm();
+    const auto turns = contact.spin_inertia > 0;
+    return {by_impulse.squared + where(turns, squared, Number{}),
+            where(speed > by_impulse.squared_speed, speed, by_impulse.squared_speed)};
 }
 
 /// Whether setInvertible() was able to invert K, in all lanes.

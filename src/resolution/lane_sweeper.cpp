@@ -1,6 +1,7 @@
 #include "resolution/lane_sweeper.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "math/arrays.h"
 #include "resolution/fill_contact.h"
@@ -21,8 +22,10 @@ constexpr std::size_t sum_block = 64;
 
 }  // namespace
 
-void LaneSweeper::prepare(const PgsBatch& pgs, std::size_t contacts) {
-    const auto ends = std::span<const ContactEnds>(pgs.local.ends).first(contacts);
+template <class Wide>
+void BasicLaneSweeper<Wide>::prepare(const PgsBatch& pgs, std::size_t contacts, std::size_t first) {
+    first_ = first;
+    const auto ends = std::span<const ContactEnds>(pgs.local.ends).subspan(first, contacts);
     if (pgs.order == SweepOrder::by_colours) {
         groups_.byColours(ends, pgs.local.dynamic_bodies);
     } else {
@@ -31,26 +34,32 @@ void LaneSweeper::prepare(const PgsBatch& pgs, std::size_t contacts) {
     contacts_ = firstOf(contact_memory_, groups_.rows());
 }
 
-void LaneSweeper::start(const PgsBatch& pgs) {
+template <class Wide>
+void BasicLaneSweeper<Wide>::fill(const PgsBatch& pgs) {
     pgs.executor.forBlocks(
         groups_.groups().size(),
         [&](std::size_t begin, std::size_t end, int) {
             runOnLanes<Lanes>([&]() __attribute__((always_inline)) {
-                for (std::size_t g = begin; g < end; ++g) fill(groups_.groups()[g], pgs);
+                for (std::size_t g = begin; g < end; ++g) fillGroup(groups_.groups()[g], pgs);
             });
         },
         group_grain);
+}
+
+template <class Wide>
+void BasicLaneSweeper<Wide>::start(const PgsBatch& pgs) {
     for (std::size_t set = 0; set < groups_.sets(); ++set) {
         visitGroups<Way::forth>(
             set, pgs,
-            [](std::span<WideContact> contacts, PgsBody<Lanes> & a, PgsBody<Lanes> & b) __attribute__((always_inline)) {
-                for (const WideContact& contact : contacts) push(contact, contact.impulse, a, b);
+            [](std::span<Wide> contacts, PgsBody<Lanes> & a, PgsBody<Lanes> & b) __attribute__((always_inline)) {
+                for (const Wide& contact : contacts) push(contact, contact.impulse, a, b);
             });
     }
 }
 
 /// Empty lanes repeat the first contact of the lane, or of another where it has none.
-[[gnu::always_inline]] inline void LaneSweeper::fill(const LaneGroup& group, const PgsBatch& pgs) {
+template <class Wide>
+[[gnu::always_inline]] inline void BasicLaneSweeper<Wide>::fillGroup(const LaneGroup& group, const PgsBatch& pgs) {
     const PgsBody<Lanes> a = load(pgs.local.bodies, group.a);
     const PgsBody<Lanes> b = load(pgs.local.bodies, group.b);
     const auto first = groups_.contactsOf(group.begin);
@@ -61,15 +70,17 @@ void LaneSweeper::start(const PgsBatch& pgs) {
             const std::uint32_t index = groups_.contactsOf(i)[lane];
             sources.fills[lane] = index != LaneGroups::no_contact;
             const std::uint32_t substitute = first[lane] == LaneGroups::no_contact ? any : first[lane];
-            sources.contacts[lane] = &pgs.contacts[pgs.batch.contacts[sources.fills[lane] ? index : substitute]];
+            sources.contacts[lane] =
+                &pgs.contacts[pgs.batch.contacts[first_ + (sources.fills[lane] ? index : substitute)]];
         }
         fillContact(contacts_[i], a, b, sources, pgs.bodies.position, pgs.settings);
     }
 }
 
 /// Calls visit(contacts, a, b) for every group of a set, in ascending order or, on the way back, in descending order.
-template <LaneSweeper::Way way, class Visit>
-void LaneSweeper::visitGroups(std::size_t set, const PgsBatch& pgs, const Visit& visit) {
+template <class Wide>
+template <typename BasicLaneSweeper<Wide>::Way way, class Visit>
+void BasicLaneSweeper<Wide>::visitGroups(std::size_t set, const PgsBatch& pgs, const Visit& visit) {
     const std::span<const LaneGroup> groups = groups_.set(set);
     std::vector<LocalBody>& bodies = pgs.local.bodies;
     const auto work = [&](std::size_t begin, std::size_t end, int) {
@@ -91,33 +102,37 @@ void LaneSweeper::visitGroups(std::size_t set, const PgsBatch& pgs, const Visit&
     }
 }
 
-void LaneSweeper::sweepForth(const PgsBatch& pgs) {
+template <class Wide>
+void BasicLaneSweeper<Wide>::sweepForth(const PgsBatch& pgs) {
     for (std::size_t set = 0; set < groups_.sets(); ++set) {
         visitGroups<Way::forth>(
             set, pgs,
-            [](std::span<WideContact> contacts, PgsBody<Lanes> & a, PgsBody<Lanes> & b) __attribute__((always_inline)) {
-                for (WideContact& contact : contacts) visit(contact, a, b);
+            [](std::span<Wide> contacts, PgsBody<Lanes> & a, PgsBody<Lanes> & b) __attribute__((always_inline)) {
+                for (Wide& contact : contacts) visit(contact, a, b);
             });
     }
 }
 
-void LaneSweeper::sweepBack(const PgsBatch& pgs) {
+template <class Wide>
+void BasicLaneSweeper<Wide>::sweepBack(const PgsBatch& pgs) {
     for (std::size_t set = groups_.sets(); set-- > 0;) {
         visitGroups<Way::back>(
             set, pgs,
-            [](std::span<WideContact> contacts, PgsBody<Lanes> & a, PgsBody<Lanes> & b) __attribute__((always_inline)) {
-                for (std::size_t i = contacts.size(); i-- > 0;) visit(contacts[i], a, b);
+            [](std::span<Wide> contacts, PgsBody<Lanes> & a, PgsBody<Lanes> & b) __attribute__((always_inline)) {
+                for (std::size_t i = contacts.size(); i-- > 0;) visitBack(contacts[i], a, b);
             });
     }
 }
 
-void LaneSweeper::save(const PgsBatch& pgs) {
+template <class Wide>
+void BasicLaneSweeper<Wide>::save(const PgsBatch& pgs) {
     resizeTightly(before_, contacts_.size());
     forEach(
-        before_.size(), pgs.executor, [&](std::size_t i) { before_[i] = contacts_[i].impulse; }, wide_grain);
+        before_.size(), pgs.executor, [&](std::size_t i) { before_[i] = contacts_[i].accumulated(); }, wide_grain);
 }
 
-SweepChange LaneSweeper::change(const PgsBatch& pgs) {
+template <class Wide>
+SweepChange BasicLaneSweeper<Wide>::change(const PgsBatch& pgs) {
     resizeTightly(squared_, contacts_.size() * lane_count);
     sums_.resize((contacts_.size() + sum_block - 1) / sum_block);
     forEach(
@@ -138,17 +153,17 @@ SweepChange LaneSweeper::change(const PgsBatch& pgs) {
 }
 
 /// Of some wide contacts, lane by lane. Notes each one's.
-std::array<SweepChange, lane_count> LaneSweeper::changeOf(std::size_t begin, std::size_t end) {
+template <class Wide>
+std::array<SweepChange, lane_count> BasicLaneSweeper<Wide>::changeOf(std::size_t begin, std::size_t end) {
     std::array<SweepChange, lane_count> change;
     runOnLanes<Lanes>([&]() __attribute__((always_inline)) {
         Lanes squared{};
         Lanes largest{};
         for (std::size_t i = begin; i < end; ++i) {
-            const WideContact& contact = contacts_[i];
-            const Triple<Lanes> difference = contact.impulse - before_[i];
-            const Lanes weighted = difference.squaredNorm() / contact.normal_mass;
-            const Lanes speed = (contact.k * difference).squaredNorm();
-            const Lanes counted = where(contact.normal_mass > 0, weighted, Lanes{});
+            const Wide& contact = contacts_[i];
+            const BasicChange<Lanes> by = changeBy(contact, contact.accumulated() - before_[i]);
+            const Lanes speed = by.squared_speed;
+            const Lanes counted = where(contact.normal_mass > 0, by.squared, Lanes{});
             squared += counted;
             for (std::size_t lane = 0; lane < lane_count; ++lane) squared_[i * lane_count + lane] = counted[lane];
             largest = where(speed > largest, speed, largest);
@@ -160,21 +175,23 @@ std::array<SweepChange, lane_count> LaneSweeper::changeOf(std::size_t begin, std
     return change;
 }
 
-void LaneSweeper::restart() {
+template <class Wide>
+void BasicLaneSweeper<Wide>::restart() {
     direction_.clear();
     resizeTightly(direction_, contacts_.size());
 }
 
-void LaneSweeper::accelerate(double beta, const PgsBatch& pgs) {
+template <class Wide>
+void BasicLaneSweeper<Wide>::accelerate(double beta, const PgsBatch& pgs) {
     pgs.executor.forBlocks(
         contacts_.size(),
         [&](std::size_t begin, std::size_t end, int) {
             runOnLanes<Lanes>([&]() __attribute__((always_inline)) {
                 const Lanes factor = beta + Lanes{};
                 for (std::size_t i = begin; i < end; ++i) {
-                    const Triple<Lanes> change = contacts_[i].impulse - before_[i];
-                    const Triple<Lanes> step = factor * direction_[i];
-                    contacts_[i].impulse += step;
+                    const Accumulated change = contacts_[i].accumulated() - before_[i];
+                    const Accumulated step = factor * direction_[i];
+                    contacts_[i].add(step);
                     direction_[i] = change + step;
                 }
             });
@@ -182,30 +199,40 @@ void LaneSweeper::accelerate(double beta, const PgsBatch& pgs) {
         wide_grain);
 }
 
-PgsContact LaneSweeper::contactAt(std::size_t contact, const PgsBatch& pgs) const {
+template <class Wide>
+PgsContact BasicLaneSweeper<Wide>::contactAt(std::size_t contact, const PgsBatch& pgs) const {
     const std::uint32_t slot = groups_.slots()[contact];
     PgsContact s = laneOf(contacts_[slot / lane_count], slot % lane_count);
-    s.a = pgs.local.ends[contact].a;
-    s.b = pgs.local.ends[contact].b;
+    s.a = pgs.local.ends[first_ + contact].a;
+    s.b = pgs.local.ends[first_ + contact].b;
     return s;
 }
 
-bool LaneSweeper::releaseSliding(const PgsBatch& pgs) {
+template <class Wide>
+bool BasicLaneSweeper<Wide>::releaseSliding(const PgsBatch& pgs) {
     const auto at = [&](std::size_t i) { return contactAt(i, pgs); };
     const std::span<const std::uint32_t> slots = groups_.slots();
-    return releaseSlidingOf(pgs, slots.size(), at, [&](std::size_t i, double friction) {
+    return releaseSlidingOf(pgs, first_, slots.size(), at, [&](std::size_t i, double friction) {
         setLane(contacts_[slots[i] / lane_count].friction, slots[i] % lane_count, friction);
     });
 }
 
-void LaneSweeper::finish(const PgsBatch& pgs) {
+template <class Wide>
+void BasicLaneSweeper<Wide>::finish(const PgsBatch& pgs) {
     forEach(groups_.slots().size(), pgs.executor, [&](std::size_t i) { writeImpulse(i, pgs); });
 }
 
-void LaneSweeper::writeImpulse(std::size_t contact, const PgsBatch& pgs) const {
+template <class Wide>
+void BasicLaneSweeper<Wide>::writeImpulse(std::size_t contact, const PgsBatch& pgs) const {
     const std::uint32_t slot = groups_.slots()[contact];
-    const WideContact& wide = contacts_[slot / lane_count];
-    pgs.contacts[pgs.batch.contacts[contact]].impulse += laneOf(wide.impulse, slot % lane_count);
+    const Wide& wide = contacts_[slot / lane_count];
+    Contact& to = pgs.contacts[pgs.batch.contacts[first_ + contact]];
+    to.impulse += laneOf(wide.impulse, slot % lane_count);
+    if constexpr (std::is_same_v<Wide, WideRollingContact>)
+        to.angular_impulse += laneOf(wide.turning, slot % lane_count);
 }
+
+template class BasicLaneSweeper<WideContact>;
+template class BasicLaneSweeper<WideRollingContact>;
 
 }  // namespace cairn

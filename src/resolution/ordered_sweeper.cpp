@@ -9,6 +9,14 @@
 
 namespace cairn {
 
+namespace {
+
+constexpr auto visit_contact = [](BasicPgsContact<double>& contact, PgsBody<double>& a, PgsBody<double>& b) {
+    visit(contact, a, b);
+};
+
+}  // namespace
+
 void fillContacts(std::span<const UnfilledContact> contacts, std::span<const Vec3> position,
                   const ResolutionSettings& settings) {
     runOnLanes<Lanes>([&]() __attribute__((always_inline)) {
@@ -59,25 +67,24 @@ void OrderedSweeper::visitPairs(bool back, LocalBatch& local, const Visit& visit
     }
 }
 
-void OrderedSweeper::startFilled(const PgsBatch& pgs) {
+void OrderedSweeper::fill(const PgsBatch& pgs) {
+    unfilled_.clear();
+    listUnfilled(pgs, unfilled_);
+    fillContacts(unfilled_, pgs.bodies.position, pgs.settings);
+}
+
+void OrderedSweeper::start(const PgsBatch& pgs) {
     visitPairs(false, pgs.local, [](const BasicPgsContact<double>& contact, PgsBody<double>& a, PgsBody<double>& b) {
         push(contact, contact.impulse, a, b);
     });
 }
 
-void OrderedSweeper::start(const PgsBatch& pgs) {
-    unfilled_.clear();
-    listUnfilled(pgs, unfilled_);
-    fillContacts(unfilled_, pgs.bodies.position, pgs.settings);
-    startFilled(pgs);
-}
-
 void OrderedSweeper::sweepForth(const PgsBatch& pgs) {
-    visitPairs(false, pgs.local, &visit<double>);
+    visitPairs(false, pgs.local, visit_contact);
 }
 
 void OrderedSweeper::sweepBack(const PgsBatch& pgs) {
-    visitPairs(true, pgs.local, &visit<double>);
+    visitPairs(true, pgs.local, visit_contact);
 }
 
 void OrderedSweeper::save(const PgsBatch&) {
@@ -128,7 +135,7 @@ void OrderedSweeper::setImpulse(std::size_t contact, const Triple1& impulse, Loc
 
 bool OrderedSweeper::releaseSliding(const PgsBatch& pgs) {
     const auto at = [&](std::size_t i) { return contactAt(i, pgs); };
-    return releaseSlidingOf(pgs, contacts_.size(), at,
+    return releaseSlidingOf(pgs, 0, contacts_.size(), at,
                             [&](std::size_t i, double friction) { contacts_[i].friction = friction; });
 }
 

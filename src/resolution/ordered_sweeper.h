@@ -21,8 +21,8 @@ struct UnfilledContact {
 void fillContacts(std::span<const UnfilledContact> contacts, std::span<const Vec3> position,
                   const ResolutionSettings& settings);
 
-/// For the contacts of a batch without joints and rolling friction, which are visited in their order, from body to
-/// body. Keeps its memory between batches.
+/// For contacts of a batch that no joint holds and that do not resist rolling, which are visited in their order, from
+/// body to body. Keeps its memory between batches.
 class OrderedSweeper {
   public:
     /// Whether direct steps may replace impulses.
@@ -30,11 +30,11 @@ class OrderedSweeper {
 
     /// Takes over the first contacts of a batch.
     void prepare(const PgsBatch& pgs, std::size_t contacts);
-    /// Appends them to those that are to be filled before startFilled(). @pre nothing of the batch moves until then
+    /// Appends them to those that are to be filled before start(). @pre nothing of the batch moves until then
     void listUnfilled(const PgsBatch& pgs, std::vector<UnfilledContact>& unfilled);
+    /// Fills them.
+    void fill(const PgsBatch& pgs);
     /// Applies the impulses that the contacts begin with.
-    void startFilled(const PgsBatch& pgs);
-    /// The same for contacts that are not filled.
     void start(const PgsBatch& pgs);
     void sweepForth(const PgsBatch& pgs);
     void sweepBack(const PgsBatch& pgs);

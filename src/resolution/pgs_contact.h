@@ -28,6 +28,11 @@ struct alignas(sizeof(NumberType)) BasicPgsContact {
     Symmetric k;               ///< K [1/kg]
     Number normal_mass{};      ///< 1 / (nᵀ·K·n) [kg]
     Number tangential_mass{};  ///< 1 / largest eigenvalue of K's tangential part [kg]
+
+    /// What sweeps accumulate.
+    using Accumulated = Vector;
+    [[gnu::always_inline]] const Accumulated& accumulated() const { return impulse; }
+    [[gnu::always_inline]] void add(const Accumulated& step) { impulse += step; }
 };
 
 /// One contact: four cache lines, of which a contact that sticks needs three.
@@ -84,33 +89,46 @@ template <class Number>
     k.zz += mass_inv + r.x() * z.y() - r.y() * z.x();
 }
 
+/// What follows from a matrix that turns what acts along a normal and across it into motion.
+template <class Number>
+struct BasicResponse {
+    BasicSymmetric3<Number> inverse;
+    Number normal_mass;      ///< 1 / (nᵀ·K·n)
+    Number tangential_mass;  ///< 1 / largest eigenvalue of K's tangential part
+};
+
+/// As far as K can be inverted.
+template <class Number>
+[[gnu::always_inline]] inline BasicResponse<Number> responseOf(const BasicSymmetric3<Number>& k,
+                                                               const Triple<Number>& n) {
+    const Number k_nn = n.dot(k * n);
+    // Of the tangential part of K: its trace, and its determinant as the cofactor of k_nn.
+    const Number mean = (k.xx + k.yy + k.zz - k_nn) / 2;
+    const Triple<Number> y_cross_z(k.yy * k.zz - k.yz * k.yz, k.xz * k.yz - k.xy * k.zz, k.xy * k.yz - k.xz * k.yy);
+    const BasicSymmetric3<Number> cofactors{y_cross_z.x(),
+                                            y_cross_z.y(),
+                                            y_cross_z.z(),
+                                            k.xx * k.zz - k.xz * k.xz,
+                                            k.xy * k.xz - k.xx * k.yz,
+                                            k.xx * k.yy - k.xy * k.xy};
+    const Number difference = mean * mean - n.dot(cofactors * n);
+    const Number half = squareRoot(where(difference > 0, difference, Number{}));
+    return {inverse(k), 1 / k_nn, 1 / (mean + half)};
+}
+
 /// Stores K and what follows from it, as far as K can be inverted. @param k [1/kg, W]
 template <class Contact>
 [[gnu::always_inline]] inline void setInvertible(Contact& contact, const typename Contact::Symmetric& k) {
-    using Number = typename Contact::Number;
-    using Vector = typename Contact::Vector;
-    const Vector& n = contact.normal;
-    const Number k_nn = n.dot(k * n);
+    const BasicResponse<typename Contact::Number> response = responseOf(k, contact.normal);
     contact.k = k;
-    contact.k_inv = inverse(k);
-    contact.normal_mass = 1 / k_nn;
-    // Of the tangential part of K: its trace, and its determinant as the cofactor of k_nn.
-    const Number mean = (k.xx + k.yy + k.zz - k_nn) / 2;
-    const Vector y_cross_z(k.yy * k.zz - k.yz * k.yz, k.xz * k.yz - k.xy * k.zz, k.xy * k.yz - k.xz * k.yy);
-    const typename Contact::Symmetric cofactors{y_cross_z.x(),
-                                                y_cross_z.y(),
-                                                y_cross_z.z(),
-                                                k.xx * k.zz - k.xz * k.xz,
-                                                k.xy * k.xz - k.xx * k.yz,
-                                                k.xx * k.yy - k.xy * k.xy};
-    const Number difference = mean * mean - n.dot(cofactors * n);
-    const Number half = squareRoot(where(difference > 0, difference, Number{}));
-    contact.tangential_mass = 1 / (mean + half);
+    contact.k_inv = response.inverse;
+    contact.normal_mass = response.normal_mass;
+    contact.tangential_mass = response.tangential_mass;
 }
 
 /// Where K cannot be inverted (masses beyond what doubles can divide) the contact keeps its normal part only, and where
 /// not even that exists it cannot be resolved. @pre setInvertible(contact, …)
-inline void mendSingular(PgsContact& contact) {
+inline void mendSingular(BasicPgsContact<double>& contact) {
     const Vec3 n = toVec3(contact.normal);
     if (isFinite(contact.k_inv) && n.dot(contact.k_inv * n) > 0 && std::isfinite(contact.tangential_mass)) return;
     const double k_nn = 1 / contact.normal_mass;
@@ -121,7 +139,7 @@ inline void mendSingular(PgsContact& contact) {
     contact.k_inv = Symmetric3::from(contact.normal_mass * n * n.transpose());
 }
 
-inline bool isResolvable(const PgsContact& contact) {
+inline bool isResolvable(const BasicPgsContact<double>& contact) {
     return contact.normal_mass > 0;
 }
 
@@ -156,7 +174,7 @@ template <class Contact, class A, class B>
 }
 
 /// Whether a contact that pushes slides. @param threshold of the resolution [m/s]
-inline bool slides(const PgsContact& contact, const LocalBody& a, const LocalBody& b, double threshold) {
+inline bool slides(const BasicPgsContact<double>& contact, const LocalBody& a, const LocalBody& b, double threshold) {
     if (!(contact.normal.dot(contact.impulse) > 0)) return false;
     // What is slower than this only has not converged yet.
     const double sliding = 10 * threshold;
@@ -205,6 +223,16 @@ template <class Contact>
     return j;
 }
 
+/// The accumulated impulse along the normal that gives the contact its target velocity.
+/// @param velocity as in slidingSteps()
+template <class Contact>
+[[gnu::always_inline]] inline typename Contact::Vector normalImpulse(const Contact& contact,
+                                                                     const typename Contact::Vector& velocity) {
+    using Number = typename Contact::Number;
+    const Number wanted = contact.normal.dot(contact.impulse) - contact.normal.dot(velocity) * contact.normal_mass;
+    return where(wanted > 0, wanted, Number{}) * contact.normal;
+}
+
 /// The accumulated impulse that gives the contact its target velocity and stops its sliding, within the friction cone.
 /// @param velocity ϑA − ϑB with the present impulse [m/s]
 template <class Contact>
@@ -213,13 +241,16 @@ template <class Contact>
     using Number = typename Contact::Number;
     using Vector = typename Contact::Vector;
     const Vector excess = velocity - contact.target * contact.normal;
+    const auto frictionless = contact.friction == 0;
+    if (holdsInAll(frictionless)) return normalImpulse(contact, excess);
     const Vector stick = contact.impulse - contact.k_inv * excess;
     const Number normal = contact.normal.dot(stick);
     const Number tangential = (stick - normal * contact.normal).squaredNorm();
     const Number cone = contact.friction * normal;
-    const decltype(normal > 0) sticks = (normal > 0) & (tangential <= cone * cone);
+    const decltype(normal > 0) sticks = (cone > 0) & (tangential <= cone * cone);
     if (holdsInAll(sticks)) return stick;
-    return where(sticks, stick, slidingSteps(contact, excess));
+    const Vector slides = where(frictionless, normalImpulse(contact, excess), slidingSteps(contact, excess));
+    return where(sticks, stick, slides);
 }
 
 }  // namespace cairn

@@ -59,7 +59,7 @@ bool Relay::take(FunctionRef<bool(std::size_t, Sweeps<OrderedSweeper>&)> prepare
     fillContacts(unfilled_, pgs.bodies.position, pgs.settings);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
         if (!taken[lane]) continue;
-        sweeps_[lane].sweeper().startFilled(sweeps_[lane].pgs());
+        sweeps_[lane].sweeper().start(sweeps_[lane].pgs());
         beginSweep(lane);
     }
     return any;

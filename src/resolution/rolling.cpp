@@ -8,6 +8,9 @@ namespace cairn {
 
 namespace {
 
+/// At most so many rounds of projection, until nothing changes any more.
+constexpr int most_projections = 400;
+
 /// Parts of a wrench: the sizes that bounds are about.
 constexpr Eigen::Index normal_row = 0, slide_rows = 1, spin_row = 3, roll_rows = 4;
 
@@ -91,10 +94,9 @@ class Turns {
     Vec6 c_;
 };
 
-Vec6 inTurns(const RollingContact& contact, double friction, const Vec6& excess, const Vec6& present,
-             RollingRounds rounds) {
+Vec6 inTurns(const RollingContact& contact, double friction, const Vec6& excess, const Vec6& present) {
     Turns turns(contact, friction, excess, present);
-    for (int i = 0; i < static_cast<int>(rounds); ++i) {
+    for (int i = 0; i < most_projections; ++i) {
         const Vec6 before = turns.x;
         turns.turn();
         if (largestOf(turns.x - before, contact.lever) <= 1e-15 * largestOf(turns.x, contact.lever)) break;
@@ -107,7 +109,6 @@ Vec6 inTurns(const RollingContact& contact, double friction, const Vec6& excess,
 void RollingContact::setMatrix(const Mat6& matrix) {
     k = matrix;
     lever = leverOf(k);
-    mass = solved(k, lever, Mat6::Identity());
     slide_mass = 1 / largestEigenvalue(k, slide_rows);
     roll_mass = 1 / largestEigenvalue(k, roll_rows);
 }
@@ -129,16 +130,13 @@ Mat6 wrenchMatrix(const ContactFrame& frame, const LocalBody& a, const LocalBody
 }
 
 Vec6 solveRolling(const RollingContact& contact, double static_friction, double sliding_friction, const Vec6& excess,
-                  const Vec6& present, RollingRounds rounds) {
-    // What is solved in every visit takes the inverse, what is solved once the factorization.
-    const Vec6 change =
-        rounds == RollingRounds::few ? Vec6(contact.mass * excess) : solved(contact.k, contact.lever, excess);
-    const Vec6 rigid = present - change;
+                  const Vec6& present) {
+    const Vec6 rigid = present - solved(contact.k, contact.lever, excess);
     if (rigid.allFinite() && isWithin(contact, static_friction, rigid)) return rigid;
-    const Vec6 held = inTurns(contact, static_friction, excess, present, rounds);
+    const Vec6 held = inTurns(contact, static_friction, excess, present);
     const double most = static_friction * held[normal_row];
     const bool slides = sliding_friction < static_friction && length2(held, slide_rows) >= most * (1 - 1e-9);
-    return slides ? inTurns(contact, sliding_friction, excess, present, rounds) : held;
+    return slides ? inTurns(contact, sliding_friction, excess, present) : held;
 }
 
 Vec3 rollingImpulse(const RollingContact& contact, double normal_impulse, const Vec3& angular_velocity) {
@@ -150,7 +148,7 @@ Vec3 rollingImpulse(const RollingContact& contact, double normal_impulse, const 
     if (std::abs(stop[0]) <= spin && stop[1] * stop[1] + stop[2] * stop[2] <= roll * roll) return stop;
     Vec3 t = Vec3::Zero();
     const double step = contact.roll_mass;
-    for (int i = 0; i < static_cast<int>(RollingRounds::many); ++i) {
+    for (int i = 0; i < most_projections; ++i) {
         t[0] = std::clamp(t[0] - (angular_velocity + k * t)[0] / k(0, 0), -spin, spin);
         const Vec3 c = angular_velocity + k * t;
         const double u = t[1] - step * c[1];

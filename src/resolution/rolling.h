@@ -17,7 +17,6 @@ struct RollingContact {
     double rolling = 0;             ///< [m]: torque against rolling is at most this times the normal force
     double spinning = 0;            ///< [m]: torque about the normal likewise
     Mat6 k = Mat6::Identity();      ///< [1/kg, 1/(kg·m), 1/(kg·m²)]
-    Mat6 mass = Mat6::Identity();   ///< inverse of k; not finite where there is none
     double slide_mass = 0;          ///< least effective mass of the tangential part [kg]
     double roll_mass = 0;           ///< and least effective inertia of rolling [kg·m²]
     double lever = 1;               ///< turns times it compare with ways: a power of two, about ten radii [1]
@@ -37,14 +36,11 @@ inline Vec6 relativeTwist(const ContactFrame& frame, const LocalBody& a, const L
     return twist;
 }
 
-/// How finely solveRolling() works.
-enum class RollingRounds { few = 2, many = 400 };
-
 /// The accumulated impulse of a contact that neither closes, slides, spins nor rolls, as far as the friction cone and
 /// the bounds of the torques allow. @param excess velocity with the present impulse, less what the contact shall have
 /// @param present accumulated impulse so far @param friction that holds while sliding
 Vec6 solveRolling(const RollingContact& contact, double static_friction, double sliding_friction, const Vec6& excess,
-                  const Vec6& present, RollingRounds rounds);
+                  const Vec6& present);
 
 /// The angular impulse that acts beside a linear one that is known. @param twist after it
 Vec3 rollingImpulse(const RollingContact& contact, double normal_impulse, const Vec3& angular_velocity);

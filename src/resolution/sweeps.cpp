@@ -33,13 +33,19 @@ std::int64_t Sweeps<Sweeper>::resolve(const BatchView& batch, const BatchKind& k
                                       const BodyState& bodies, const ResolutionSettings& settings,
                                       const Executor& executor) {
     prepare(batch, kind, contacts, bodies, settings, executor);
+    // How contacts close is found before anything is pushed.
+    if (rolls()) rolling_.fill(*pgs_);
+    sweeper_.fill(*pgs_);
     sweeper_.start(*pgs_);
-    framed_.begin(*pgs_, static_cast<std::uint32_t>(plain_), static_cast<std::uint32_t>(contacts_.size()));
+    if (rolls()) rolling_.start(*pgs_);
+    framed_.begin(*pgs_, static_cast<std::uint32_t>(unframed_), static_cast<std::uint32_t>(contacts_.size()));
     while (!isDone()) {
         beginSweep();
         sweeper_.sweepForth(*pgs_);
+        if (rolls()) rolling_.sweepForth(*pgs_);
         framed_.sweepForth(local_);
         framed_.sweepBack(local_);
+        if (rolls()) rolling_.sweepBack(*pgs_);
         sweeper_.sweepBack(*pgs_);
         endSweep();
     }
@@ -65,28 +71,26 @@ void Sweeps<Sweeper>::prepare(const BatchView& batch, const BatchKind& kind, std
         local_.gatherBodies(batch_, contacts, bodies);
     }
     sweeper_.prepare(*pgs_, plain_);
+    if (rolls()) rolling_.prepare(*pgs_, unframed_ - plain_, plain_);
 }
 
-/// Lists the contacts, framed ones last.
+/// Lists the contacts: those that resist rolling after the others, and framed ones last.
 template <class Sweeper>
 void Sweeps<Sweeper>::gather(const BatchView& batch, const BatchKind& kind, std::span<const Contact> contacts,
                              const BodyState& bodies) {
-    contacts_.clear();
-    framed_contacts_.clear();
     framed_kind_ = kind.framed;
-    if (kind.framed) {
+    contacts_.assign(batch.contacts.begin(), batch.contacts.end());
+    plain_ = unframed_ = contacts_.size();
+    if (kind.framed || kind.rolling > 0) {
         const std::vector<BodyIndex> jointed = jointedOf(batch, bodies);
         const auto isTied = [&](BodyIndex i) { return std::ranges::binary_search(jointed, i); };
-        for (const std::uint32_t i : batch.contacts) {
-            const Contact& c = contacts[i];
-            const bool framed = resistsRolling(c) || isTied(c.a) || isTied(c.b);
-            (framed ? framed_contacts_ : contacts_).push_back(i);
-        }
-    } else {
-        contacts_.assign(batch.contacts.begin(), batch.contacts.end());
+        const auto isFree = [&](std::uint32_t i) { return !isTied(contacts[i].a) && !isTied(contacts[i].b); };
+        const auto isPlain = [&](std::uint32_t i) { return !resistsRolling(contacts[i]); };
+        const auto placeOf = [&](auto it) { return static_cast<std::size_t>(it - contacts_.begin()); };
+        unframed_ = placeOf(std::stable_partition(contacts_.begin(), contacts_.end(), isFree));
+        const auto end = contacts_.begin() + static_cast<std::ptrdiff_t>(unframed_);
+        plain_ = placeOf(std::stable_partition(contacts_.begin(), end, isPlain));
     }
-    plain_ = contacts_.size();
-    contacts_.insert(contacts_.end(), framed_contacts_.begin(), framed_contacts_.end());
     batch_ = {batch.bodies, contacts_, batch.joints};
 }
 
@@ -94,6 +98,7 @@ template <class Sweeper>
 std::int64_t Sweeps<Sweeper>::finish() {
     for (std::size_t i = 0; i < local_.dynamic_bodies; ++i) local_.bodies[i].struck = 1;
     sweeper_.finish(*pgs_);
+    if (rolls()) rolling_.finish(*pgs_);
     if (framed_kind_) framed_.finish(*pgs_);
     local_.scatterBodies(pgs_->bodies);
     return visits_;
@@ -106,6 +111,7 @@ void Sweeps<Sweeper>::beginSweep() {
     measured_ = stepped_directly_ || !progress_.isLast();
     if (!measured_) return;
     sweeper_.save(*pgs_);
+    if (rolls()) rolling_.save(*pgs_);
     framed_.save();
     direction_.save(local_, pgs_->executor);
 }
@@ -117,7 +123,8 @@ void Sweeps<Sweeper>::endSweep() {
     SweepChange change;
     if (measured_) {
         change = sweeper_.change(*pgs_);
-        change.add(framed_.change(local_));
+        if (rolls()) change.add(rolling_.change(*pgs_));
+        change.add(framed_.change());
     }
     judge(change);
 }
@@ -183,8 +190,9 @@ bool Sweeps<Sweeper>::endPass() {
     // Only what static friction cannot hold slides. Where both frictions are the same this costs nothing.
     if (!two_frictions_) return true;
     const bool plain = sweeper_.releaseSliding(*pgs_);
+    const bool rolling = rolls() && rolling_.releaseSliding(*pgs_);
     const bool framed = framed_.releaseSliding(*pgs_);
-    if (!plain && !framed) return true;
+    if (!plain && !rolling && !framed) return true;
     two_frictions_ = false;
     progress_ = SweepProgress(plan_);
     return false;
@@ -196,9 +204,11 @@ void Sweeps<Sweeper>::accelerate(double beta) {
         direction_.restart();
         framed_.restart();
         sweeper_.restart();
+        rolling_.restart();
     }
     direction_.accelerate(beta, local_, pgs_->executor);
     sweeper_.accelerate(beta, *pgs_);
+    if (rolls()) rolling_.accelerate(beta, *pgs_);
     framed_.accelerate(beta);
 }
 

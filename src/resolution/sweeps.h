@@ -24,7 +24,8 @@ class Sweeps {
     std::int64_t resolve(const BatchView& batch, const BatchKind& kind, std::span<Contact> contacts,
                          const BodyState& bodies, const ResolutionSettings& settings, const Executor& executor);
 
-    // The same in parts, for who visits the contacts of its sweeper(): prepare(), the sweeper's start, then
+    // The same in parts, for who visits the contacts of its sweeper(), if there are no
+    // others: prepare(), the sweeper's start, then
     // beginSweep(), visits forth and back, and endSweep(), until it is done, and finish(). All that is passed must
     // outlive them.
     void prepare(const BatchView& batch, const BatchKind& kind, std::span<Contact> contacts, const BodyState& bodies,
@@ -44,6 +45,7 @@ class Sweeps {
   private:
     void gather(const BatchView& batch, const BatchKind& kind, std::span<const Contact> contacts,
                 const BodyState& bodies);
+    bool rolls() const { return unframed_ > plain_; }
     void judge(const SweepChange& change);
     bool endPass();
     bool takeDirectStep();
@@ -51,17 +53,18 @@ class Sweeps {
     void accelerate(double beta);
 
     std::optional<PgsBatch> pgs_;
-    BatchView batch_;           ///< with the framed contacts last
-    bool framed_kind_ = false;  ///< it may have framed contacts, or has joints
+    BatchView batch_;           ///< with the contacts that resist rolling after the others, and the framed ones last
+    bool framed_kind_ = false;  ///< it may have framed contacts: it has joints
     LocalBatch local_;
     Sweeper sweeper_;
+    RollingSweeper rolling_;
     FramedContacts framed_;
     BodyDirection direction_;
     DirectStep direct_;
-    std::vector<std::uint32_t> contacts_;         ///< then the framed ones
-    std::vector<std::uint32_t> framed_contacts_;  ///< the latter
-    std::size_t plain_ = 0;                       ///< contacts_ below this are the sweeper's
-    std::vector<PgsContact> gathered_;            ///< for direct steps
+    std::vector<std::uint32_t> contacts_;  ///< those of batch_
+    std::size_t plain_ = 0;                ///< contacts_ below this are the sweeper's
+    std::size_t unframed_ = 0;             ///< and those from there to this resist rolling; the others are framed
+    std::vector<PgsContact> gathered_;     ///< for direct steps
     SweepPlan plan_;
     SweepProgress progress_;
     std::uint32_t sweeps_ = 0;

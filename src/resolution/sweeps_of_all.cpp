@@ -106,9 +106,9 @@ class SweepsOfAll final : public Resolution {
         std::size_t contacts = 0;
         for (std::uint32_t b = 0; b < in.batches.size(); ++b) {
             const SweepOrder order = kinds_[b].order;
-            if (order == SweepOrder::by_colours && sizeOf(b) - kinds_[b].rolling >= shared_contacts) {
+            if (order == SweepOrder::by_colours && sizeOf(b) >= shared_contacts) {
                 shared_.push_back(b);
-            } else if (order != SweepOrder::one_by_one || kinds_[b].framed || impacts_first_ || sizeOf(b) == 0) {
+            } else if (order != SweepOrder::one_by_one || !isPlain(kinds_[b]) || impacts_first_ || sizeOf(b) == 0) {
                 alone_.push_back(b);
             } else {
                 relayed_.push_back(b);
@@ -123,6 +123,9 @@ class SweepsOfAll final : public Resolution {
         sortBy(alone_, [&](std::uint32_t b) { return sizeOf(b); });
         sortBy(relayed_, [&](std::uint32_t b) { return sizeOf(b) * sweepsOf(b); });
     }
+
+    /// Relays visit no other contacts.
+    static bool isPlain(const BatchKind& kind) { return !kind.framed && kind.rolling == 0; }
 
     template <class WorkOf>
     void sortBy(std::vector<std::uint32_t>& batches, const WorkOf& workOf) {

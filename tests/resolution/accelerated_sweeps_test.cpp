@@ -120,37 +120,10 @@ void addPair(Pile& pile, std::size_t number, test::Random& random) {
     if (number % 13 == 5) pile.v[b].x() = std::numeric_limits<double>::quiet_NaN();
 }
 
-bool isSame(const Vec3& x, const Vec3& y) {
-    return (x - y).norm() <= 1e-12 * y.norm() || (x.hasNaN() && y.hasNaN());
-}
-
 TEST(AcceleratedSweeps, TreatFourPairsAtOnceAsEachAlone) {
     ResolutionSettings settings = sweeping();
     settings.iterations = 1;
-    constexpr std::size_t pairs = 400;
-    Pile all;
-    all.addFixed();
-    test::Random random(11);
-    for (std::size_t number = 0; number < pairs; ++number) addPair(all, number, random);
-    ASSERT_GT(all.contacts.size(), 512U);
-    all.resolve(settings);
-
-    random = test::Random(11);
-    std::size_t next = 1;
-    std::size_t next_contact = 0;
-    for (std::size_t number = 0; number < pairs; ++number) {
-        Pile alone;
-        alone.addFixed();
-        addPair(alone, number, random);
-        alone.resolve(settings);
-        for (std::size_t i = 1; i < alone.v.size(); ++i, ++next) {
-            EXPECT_TRUE(isSame(all.v[next], alone.v[i])) << number;
-            EXPECT_TRUE(isSame(all.w[next], alone.w[i])) << number;
-        }
-        for (const Contact& contact : alone.contacts) {
-            EXPECT_TRUE(isSame(all.contacts[next_contact++].impulse, contact.impulse)) << number;
-        }
-    }
+    test::expectAsEachAlone(addPair, settings);
 }
 
 TEST(AcceleratedSweeps, GiveTheSameBitsOnAnyNumberOfThreads) {

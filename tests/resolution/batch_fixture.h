@@ -1,6 +1,8 @@
 /// Bodies and contacts made by hand, without shapes, detection or batch generation.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -224,6 +226,41 @@ inline Pile randomPile(std::uint64_t seed, std::size_t bodies, std::size_t conta
     std::sort(pile.contacts.begin(), pile.contacts.end(),
               [](const Contact& x, const Contact& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
     return pile;
+}
+
+inline bool isSame(const Vec3& x, const Vec3& y) {
+    return (x - y).norm() <= 1e-11 * y.norm() || (x.hasNaN() && y.hasNaN());
+}
+
+/// Resolves hundreds of pairs as one batch, and each alone. @param add as add(pile, number, random)
+template <class Add>
+void expectAsEachAlone(const Add& add, const ResolutionSettings& settings) {
+    constexpr std::size_t pairs = 400;
+    Pile all;
+    all.addFixed();
+    Random random(11);
+    for (std::size_t number = 0; number < pairs; ++number) add(all, number, random);
+    ASSERT_GT(all.contacts.size(), 512U);
+    all.resolve(settings);
+
+    random = Random(11);
+    std::size_t next = 1;
+    std::size_t next_contact = 0;
+    for (std::size_t number = 0; number < pairs; ++number) {
+        Pile alone;
+        alone.addFixed();
+        add(alone, number, random);
+        alone.resolve(settings);
+        for (std::size_t i = 1; i < alone.v.size(); ++i, ++next) {
+            EXPECT_TRUE(isSame(all.v[next], alone.v[i])) << number;
+            EXPECT_TRUE(isSame(all.w[next], alone.w[i])) << number;
+        }
+        for (const Contact& contact : alone.contacts) {
+            const Contact& same = all.contacts[next_contact++];
+            EXPECT_TRUE(isSame(same.impulse, contact.impulse)) << number;
+            EXPECT_TRUE(isSame(same.angular_impulse, contact.angular_impulse)) << number;
+        }
+    }
 }
 
 }  // namespace cairn::test
