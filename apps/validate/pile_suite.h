@@ -14,7 +14,8 @@ namespace cairn::validation {
 /// @source pairwise testing: Cohen, Dalal, Fredman, Patton: The AETG system, IEEE Trans. Softw. Eng. 23 (1997)
 std::vector<Pile> pileSuite();
 
-/// The first 24 of the small ones, frictionless only where they are three deep, for the tests and for a first look.
+/// The first 24 of the small ones, for the tests and for a first look: frictionless only where they are three deep, and
+/// none three deep of round shapes of 1 : 20.
 std::vector<Pile> quickPiles();
 
 /// Every n-th pile, beginning with the i-th, so that machines can share the work. @param part from 1 to parts
