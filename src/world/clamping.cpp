@@ -1,7 +1,6 @@
 #include "world/clamping.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <span>
 
@@ -13,14 +12,14 @@ namespace cairn {
 namespace {
 
 /// Whoever stands in the way of others that go back goes back, too, so this is repeated as often as bodies stand behind
-/// each other. After so many rounds all fly a half, a quarter, … of their way, so that who stands behind each other
-/// comes down together, and each goes back a few times at most, …
+/// each other. After so many rounds all that go back fly a half of their way, if they may, or nothing, so that who
+/// stands behind each other comes down together, and each goes back twice at most, …
 constexpr int most_exact = 4;
 /// … and after so many what is too deep stays so in this step.
 constexpr int most_rounds = 256;
 
-/// Less of a way than this is none, and after most_exact rounds less than that.
-constexpr double least_part = 0.02, least_halved_part = 1.0 / 16;
+/// Less of a way than this is none.
+constexpr double least_part = 0.02;
 
 /// Who gets no farther than this part of a flight is held.
 constexpr double most_held = 0.5;
@@ -28,7 +27,7 @@ constexpr double most_held = 0.5;
 /// @param round from 0 on
 double settledPart(double part, int round) {
     if (round < most_exact) return part < least_part ? 0 : part;
-    return part < least_halved_part ? 0 : std::ldexp(1.0, std::ilogb(part));
+    return part < 0.5 ? 0 : 0.5;
 }
 
 /// Finds to where the bodies of data.too_deep go back. @return whether any does
