@@ -204,7 +204,7 @@ void Sweeps<Sweeper>::accelerate(double beta) {
         direction_.restart();
         framed_.restart();
         sweeper_.restart();
-        rolling_.restart();
+        if (rolls()) rolling_.restart();
     }
     direction_.accelerate(beta, local_, pgs_->executor);
     sweeper_.accelerate(beta, *pgs_);
