@@ -112,15 +112,15 @@ template <class Number>
 template <class Number>
 [[gnu::always_inline]] inline auto isWithin(const BasicRollingContact<Number>& contact,
                                             const BasicWrench<Number>& wrench) {
-    const auto square = [](const Number& x) __attribute__((always_inline)) {
-        return x * x;
-    };
     const Number normal = contact.normal.dot(wrench.impulse);
     const Number spin = contact.normal.dot(wrench.turning);
     const Number slide = (wrench.impulse - normal * contact.normal).squaredNorm();
     const Number roll = (wrench.turning - spin * contact.normal).squaredNorm();
-    return (normal > 0) & (slide <= square(contact.friction * normal)) &
-           (square(spin) <= square(contact.spinning * normal)) & (roll <= square(contact.rolling * normal));
+    const Number most_slide = contact.friction * normal;
+    const Number most_spin = contact.spinning * normal;
+    const Number most_roll = contact.rolling * normal;
+    return (normal > 0) & (slide <= most_slide * most_slide) & (spin * spin <= most_spin * most_spin) &
+           (roll <= most_roll * most_roll);
 }
 
 /// As much along the normal as may act against spinning. @pre the impulse is that which holds
