@@ -107,7 +107,9 @@ void setMass(BodyStorage& bodies, BodyIndex i, const BodyDescription& d, double 
     const BodyMass found = bodyMass(d.shape, density, {d.mass, d.centre_of_mass, d.inertia});
     const double mass = found.mass;
     const Vec3& inertia = found.inertia;
-    if (!(std::isnormal(mass) && std::isnormal(inertia.minCoeff()) && std::isfinite(inertia.maxCoeff()))) {
+    // Of what is long and thin enough rounding leaves a negative moment.
+    const double least = inertia.minCoeff();
+    if (!(std::isnormal(mass) && std::isnormal(least) && least > 0 && std::isfinite(inertia.maxCoeff()))) {
         throw InputError(
             fmt::format("mass {} kg with inertia ({}, {}, {}) kg·m² cannot be represented; change the "
                         "size, the density or the mass",

@@ -272,5 +272,29 @@ TEST(Snapshot, AWorldStaysAsItWasWhenLoadingFails) {
     EXPECT_EQ(pile.world().stepCount(), 2);
 }
 
+TEST(Snapshot, WhatIsTakenCanBeRestored) {
+    // The moments of such bodies about their own lengths are less than what rounding leaves, of either sign.
+    int taken = 0;
+    int refused = 0;
+    for (int i = 0; i < 100; ++i) {
+        const Vec3 end(std::cos(i), std::sin(i), std::sin(3 * i));
+        Compound thin;
+        for (const double side : {-1.0, 1.0})
+            thin.parts.push_back({Sphere{1e-6}, {side * 100 * end, Quat::Identity()}});
+        World world;
+        world.addMaterial({"oak", 800});
+        try {
+            world.addBody({.shape = thin, .mass = 1, .fixed = i % 2 == 0});
+        } catch (const InputError&) {
+            ++refused;
+            continue;
+        }
+        ++taken;
+        EXPECT_NO_THROW(World::restore(world.save())) << end.transpose();
+    }
+    EXPECT_GT(taken, 10);
+    EXPECT_GT(refused, 10);
+}
+
 }  // namespace
 }  // namespace cairn
