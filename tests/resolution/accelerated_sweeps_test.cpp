@@ -123,7 +123,7 @@ void addPair(Pile& pile, std::size_t number, test::Random& random) {
 TEST(AcceleratedSweeps, TreatFourPairsAtOnceAsEachAlone) {
     ResolutionSettings settings = sweeping();
     settings.iterations = 1;
-    test::expectAsEachAlone(addPair, settings);
+    test::expectAsEachAlone(addPair, settings, 1e-12);
 }
 
 TEST(AcceleratedSweeps, GiveTheSameBitsOnAnyNumberOfThreads) {

@@ -131,7 +131,7 @@ void addResistingPair(Pile& pile, std::size_t number, test::Random& random) {
 }
 
 TEST(RollingContact, FourPairsAtOnceAreTreatedAsEachAlone) {
-    test::expectAsEachAlone(addResistingPair, sweepingExactly(1));
+    test::expectAsEachAlone(addResistingPair, sweepingExactly(1), 1e-11);
 }
 
 TEST(RollingContact, BodiesThatCannotTurnAreStoppedAsOthersAre) {
