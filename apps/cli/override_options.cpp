@@ -7,15 +7,9 @@
 
 namespace cairn::cli {
 
-namespace {
-
-constexpr std::int64_t most_threads = 1024;
-
 std::int64_t allCores() {
     return std::clamp<std::int64_t>(std::thread::hardware_concurrency(), 1, most_threads);
 }
-
-}  // namespace
 
 std::pair<std::string, std::string> splitField(const std::string& text) {
     const std::size_t at = text.find('=');

@@ -11,6 +11,11 @@
 
 namespace cairn::cli {
 
+constexpr std::int64_t most_threads = 1024;
+
+/// As many threads as there are processors.
+std::int64_t allCores();
+
 /// What the command line changes.
 struct OverrideOptions {
     std::string preset;  ///< empty = not given

@@ -3,14 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <string_view>
 
 #include "cli/companions.h"
 #include "cli/interrupt.h"
 #include "cli/output.h"
+#include "cli/override_options.h"
 #include "cli/program.h"
 #include "validate/pile_suite.h"
 
@@ -60,6 +63,7 @@ int runValidate(const ValidateArguments& arguments) {
 struct PilesArguments {
     std::string part;
     std::string json;
+    std::int64_t threads = allCores();
     bool quick = false;
     bool list = false;
 };
@@ -78,6 +82,13 @@ std::vector<validation::Pile> pilesOf(const PilesArguments& arguments) {
     return validation::partOf(piles, part, parts);
 }
 
+/// The rows of the piles that have ended, in the order of the suite.
+nlohmann::ordered_json endedOf(const std::vector<nlohmann::ordered_json>& rows) {
+    nlohmann::ordered_json ended = nlohmann::ordered_json::array();
+    std::ranges::copy_if(rows, std::back_inserter(ended), [](const auto& row) { return !row.is_null(); });
+    return ended;
+}
+
 int runPiles(const PilesArguments& arguments) {
     const std::vector<validation::Pile> piles = pilesOf(arguments);
     if (arguments.list) {
@@ -87,22 +98,23 @@ int runPiles(const PilesArguments& arguments) {
     // Said before hours of work rather than after.
     if (!arguments.json.empty()) TextFile(arguments.json).write("[]\n");
     catchInterrupts();
-    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    std::vector<nlohmann::ordered_json> rows(piles.size());
+    std::size_t ended = 0;
     std::size_t met = 0;
+    const auto alive = [] {
+        if (interrupted()) throw validation::Interrupted{};
+    };
+    const auto done = [&](std::size_t i, const validation::PileResult& result) {
+        printOut(validation::lineOf(piles[i], result) + "\n");
+        rows[i] = validation::rowOf(piles[i], result);
+        ++ended;
+        met += validation::missedBy(piles[i], result).empty() ? 1 : 0;
+        if (!arguments.json.empty()) TextFile(arguments.json).write(endedOf(rows).dump(1) + "\n");
+    };
     try {
-        for (const validation::Pile& pile : piles) {
-            const validation::PileResult result = validation::runPile(
-                pile, [](Settings&) {},
-                [](const World&) {
-                    if (interrupted()) throw validation::Interrupted{};
-                });
-            printOut(validation::lineOf(pile, result) + "\n");
-            rows.push_back(validation::rowOf(pile, result));
-            met += validation::missedBy(pile, result).empty() ? 1 : 0;
-            if (!arguments.json.empty()) TextFile(arguments.json).write(rows.dump(1) + "\n");
-        }
+        validation::runPiles(piles, static_cast<std::size_t>(arguments.threads), alive, done);
     } catch (const validation::Interrupted&) {
-        printError(fmt::format("interrupted after {} of {} piles", rows.size(), piles.size()));
+        printError(fmt::format("interrupted after {} of {} piles", ended, piles.size()));
         return run_failed;
     }
     printOut(fmt::format("{} of {} piles met all bounds\n", met, piles.size()));
@@ -116,6 +128,8 @@ void addPiles(CLI::App& validate, int& exit_code) {
     command->add_flag("--quick", arguments->quick, "24 small ones");
     command->add_option("--part", arguments->part, "The I-th of N parts, for several machines")->type_name("I/N");
     command->add_option("--json", arguments->json, "Write a row per pile")->type_name("FILE");
+    command->add_option("--threads", arguments->threads, "Piles side by side, a thread each; default: all cores")
+        ->check(CLI::Range(std::int64_t{1}, most_threads));
     command->callback([arguments, &exit_code] { exit_code = runPiles(*arguments); });
 }
 

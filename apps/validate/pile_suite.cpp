@@ -5,9 +5,16 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <numeric>
 #include <set>
+#include <thread>
 #include <utility>
 
+#include "validate/case.h"
 #include "validate/random.h"
 
 namespace cairn::validation {
@@ -143,6 +150,43 @@ std::vector<Pile> partOf(const std::vector<Pile>& piles, std::size_t part, std::
     std::vector<Pile> some;
     for (std::size_t i = part - 1; i < piles.size(); i += parts) some.push_back(piles[i]);
     return some;
+}
+
+void runPiles(const std::vector<Pile>& piles, std::size_t threads, const std::function<void()>& alive,
+              const std::function<void(std::size_t, const PileResult&)>& done) {
+    std::vector<std::size_t> order(piles.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return piles[i].count; });
+    std::atomic<std::size_t> next = 0;
+    std::atomic<bool> failed = false;
+    std::mutex ending;
+    std::exception_ptr failure;
+    const auto goOn = [&](const World&) {
+        if (failed) throw Interrupted{};
+        alive();
+    };
+    const auto work = [&] {
+        std::unique_lock lock(ending, std::defer_lock);
+        try {
+            for (std::size_t i = next++; i < order.size() && !failed; i = next++) {
+                const PileResult result = runPile(
+                    piles[order[i]], [](Settings&) {}, goOn);
+                lock.lock();
+                if (failed) return;
+                done(order[i], result);
+                lock.unlock();
+            }
+        } catch (...) {
+            if (!lock.owns_lock()) lock.lock();
+            if (!failed.exchange(true)) failure = std::current_exception();
+        }
+    };
+    {
+        std::vector<std::jthread> others;
+        for (std::size_t i = 1; i < std::min(threads, piles.size()); ++i) others.emplace_back(work);
+        work();
+    }
+    if (failure) std::rethrow_exception(failure);
 }
 
 std::vector<std::string> missedBy(const Pile& pile, const PileResult& result) {

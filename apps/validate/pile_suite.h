@@ -1,6 +1,7 @@
 /// @file The piles of `cairn validate piles`: factors that are covered in pairs, a row for each, and what is missed.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -21,6 +22,12 @@ std::vector<Pile> quickPiles();
 /// Every n-th pile, beginning with the i-th, so that machines can share the work. @param part from 1 to parts
 /// @throws InputError outside the range
 std::vector<Pile> partOf(const std::vector<Pile>& piles, std::size_t part, std::size_t parts);
+
+/// Runs piles, the largest first, and as many side by side as there are threads, which changes nothing but times.
+/// @param threads ≥ 1 @param alive called in every step of every pile; what it throws ends all of them and is thrown
+/// @param done told the place of each pile and its result as it ends, by one thread at a time; likewise
+void runPiles(const std::vector<Pile>& piles, std::size_t threads, const std::function<void()>& alive,
+              const std::function<void(std::size_t, const PileResult&)>& done);
 
 /// What a result misses, in words; empty if it meets all bounds.
 std::vector<std::string> missedBy(const Pile& pile, const PileResult& result);

@@ -57,6 +57,56 @@ TEST(PileSuite, PartsAreTheWhole) {
     EXPECT_THROW(partOf(piles, 4, 3), InputError);
 }
 
+std::vector<Pile> smallPiles() {
+    std::vector<Pile> piles(5);
+    for (std::size_t i = 0; i < piles.size(); ++i) {
+        piles[i].count = 10 + 5 * (i % 3);
+        piles[i].depth = 3;
+        piles[i].seed = i + 1;
+    }
+    return piles;
+}
+
+TEST(PileSuite, SideBySideIsAsOneAfterTheOther) {
+    const std::vector<Pile> piles = smallPiles();
+    std::vector<std::size_t> alone;
+    std::vector<PileResult> results(piles.size());
+    runPiles(
+        piles, 1, [] {},
+        [&](std::size_t i, const PileResult& result) {
+            alone.push_back(i);
+            results[i] = result;
+        });
+    EXPECT_EQ(alone, (std::vector<std::size_t>{2, 1, 4, 0, 3})) << "the largest first";
+    std::multiset<std::size_t> together;
+    runPiles(
+        piles, 3, [] {},
+        [&](std::size_t i, const PileResult& result) {
+            together.insert(i);
+            EXPECT_EQ(result.rest_time, results[i].rest_time);
+            EXPECT_EQ(result.rest_overlap, results[i].rest_overlap);
+            EXPECT_EQ(result.steps, results[i].steps);
+        });
+    EXPECT_EQ(together, (std::multiset<std::size_t>{0, 1, 2, 3, 4}));
+    EXPECT_NO_THROW(runPiles(
+        {}, 2, [] {}, [](std::size_t, const PileResult&) { FAIL(); }));
+}
+
+TEST(PileSuite, WhatOneThrowsEndsAll) {
+    std::size_t ended = 0;
+    const auto done = [&](std::size_t, const PileResult&) {
+        ++ended;
+        throw InputError("a disk is full");
+    };
+    for (const std::size_t threads : {1U, 3U}) {
+        ended = 0;
+        EXPECT_THROW(runPiles(
+                         smallPiles(), threads, [] {}, done),
+                     InputError);
+        EXPECT_EQ(ended, 1U) << "nobody goes on";
+    }
+}
+
 TEST(PileSuite, NamesWhatIsMissed) {
     const Pile pile{.friction = 0.2};
     PileResult good;
