@@ -2,19 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "resolution/contact_law.h"
+#include "resolution/contact_visit.h"
 #include "resolution/lane_contact.h"
 
 namespace cairn {
 
 namespace {
 
-/// False for what velocities give that are not finite: it would spread.
-bool isUsable(const Triple1& impulse) {
-    return impulse.squaredNorm() < std::numeric_limits<double>::infinity();
-}
+/// The bodies of a contact with all that joints tie to them.
+struct TiedPair {
+    LocalBatch& local;
+    const ContactFrame& frame;
+
+    const LocalBody& a() const { return local.bodies[frame.a]; }
+    const LocalBody& b() const { return local.bodies[frame.b]; }
+    Triple1 velocityAt(const BasicPgsContact<double>& contact) const {
+        return relativeVelocity(contact, read(a()), read(b()));
+    }
+    Triple1 spin() const { return Triple1(a().w) - Triple1(b().w); }
+    void push(const BasicPgsContact<double>&, const Triple1& change) const { local.pushWorld(frame, toVec3(change)); }
+    void turn(const Triple1& change) const { local.turn(frame, frame.basis.transpose() * toVec3(change)); }
+};
 
 bool rolls(const ContactFrame& frame) {
     return frame.rolling != ContactFrame::rolls_freely;
@@ -74,48 +85,32 @@ void FramedContacts::beginRolling(Framed& framed, const ContactFrame& frame, con
     const Mat3 c = inWorld(contact.k.topRightCorner<3, 3>());
     setTurning(framed, Symmetric3::from(inWorld(contact.k.bottomRightCorner<3, 3>())),
                {Triple1(Vec3(c.row(0))), Triple1(Vec3(c.row(1))), Triple1(Vec3(c.row(2)))});
-    framed.squared_lever = std::max(framed.r_a.squaredNorm(), framed.r_b.squaredNorm());
+    for (const auto& [body, r] : {std::pair(framed.a, framed.r_a), std::pair(framed.b, framed.r_b)}) {
+        if (!local.isFixed(body)) framed.squared_lever = std::max(framed.squared_lever, r.squaredNorm());
+    }
 }
 
 void FramedContacts::sweepForth(LocalBatch& local) {
-    for (std::size_t i = 0; i < contacts_.size(); ++i) visit(i, local);
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+        withSelf(i, [&](auto& contact) { visit(contact, TiedPair{local, frames_[i]}); });
+    }
 }
 
 void FramedContacts::sweepBack(LocalBatch& local) {
-    for (std::size_t i = contacts_.size(); i-- > 0;) visit(i, local);
-}
-
-void FramedContacts::visit(std::size_t i, LocalBatch& local) {
-    Framed& contact = contacts_[i];
-    const Triple1 velocity = relativeVelocity(contact, read(local.bodies[contact.a]), read(local.bodies[contact.b]));
-    if (!isResolvable(contact) || !isUsable(velocity)) return;
-    if (rolls(frames_[i])) {
-        visitRolling(i, local);
-        return;
+    for (std::size_t i = contacts_.size(); i-- > 0;) {
+        withSelf(i, [&](auto& contact) { visitBack(contact, TiedPair{local, frames_[i]}); });
     }
-    const Triple1 impulse = projectedImpulse(contact, velocity);
-    if (!isUsable(impulse)) return;
-    local.pushWorld(frames_[i], toVec3(impulse - contact.impulse));
-    contact.impulse = impulse;
 }
 
-void FramedContacts::visitRolling(std::size_t i, LocalBatch& local) {
-    Framed& contact = contacts_[i];
-    const ContactFrame& frame = frames_[i];
-    const LocalBody& a = local.bodies[contact.a];
-    const LocalBody& b = local.bodies[contact.b];
-    const auto turn = [&] { return Triple1(a.w) - Triple1(b.w); };
-    const Triple1 velocity = relativeVelocity(contact, read(a), read(b));
-    const BasicWrench<double> rigid = rigidWrench(contact, velocity - contact.target * contact.normal, turn());
-    const bool within = isWithin(contact, rigid);
-    const Triple1 impulse = within ? rigid.impulse : projectedImpulse(contact, velocity);
-    if (!isUsable(impulse)) return;
-    local.pushWorld(frame, toVec3(impulse - contact.impulse));
-    contact.impulse = impulse;
-    const Triple1 turning = within ? rigid.turning : turningSteps(contact, turn());
-    if (!isUsable(turning)) return;
-    local.turn(frame, frame.basis.transpose() * toVec3(turning - contact.turning));
-    contact.turning = turning;
+/// Calls work(contact) with a contact that resists rolling, or with one that does not.
+template <class Work>
+void FramedContacts::withSelf(std::size_t i, const Work& work) {
+    BasicRollingContact<double>& contact = contacts_[i];
+    if (rolls(frames_[i])) {
+        work(contact);
+    } else {
+        work(static_cast<BasicPgsContact<double>&>(contact));
+    }
 }
 
 void FramedContacts::save() {

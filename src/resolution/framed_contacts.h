@@ -43,8 +43,8 @@ class FramedContacts {
 
     void beginContact(Framed& framed, ContactFrame& frame, const PgsBatch& pgs);
     void beginRolling(Framed& framed, const ContactFrame& frame, const LocalBatch& local);
-    void visit(std::size_t i, LocalBatch& local);
-    void visitRolling(std::size_t i, LocalBatch& local);
+    template <class Work>
+    void withSelf(std::size_t i, const Work& work);
 
     std::vector<Framed> contacts_;
     std::vector<ContactFrame> frames_;  ///< [contacts_]

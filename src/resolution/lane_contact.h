@@ -1,9 +1,8 @@
-/// @file Contacts and bodies in lanes: how they get there, and what a visit does to them.
+/// @file Contacts and bodies in lanes: how they get there, and what impulses change.
 #pragma once
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "resolution/lane_groups.h"
@@ -125,89 +124,6 @@ static_assert(offsetof(BasicPgsContact<double>, impulse) == 0 &&
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
         __builtin_memcpy(static_cast<void*>(contacts[lane]), &row[lane], sizeof(Lanes));
     }
-}
-
-template <class Number>
-[[gnu::always_inline]] inline void visit(BasicPgsContact<Number>& contact, PgsBody<Number>& a, PgsBody<Number>& b) {
-    const Triple<Number> impulse = projectedImpulse(contact, relativeVelocity(contact, a, b));
-    // False for velocities that are not finite: they would spread.
-    const auto usable = (impulse.squaredNorm() < std::numeric_limits<double>::infinity()) & (contact.normal_mass > 0);
-    const Triple<Number> next = where(usable, impulse, contact.impulse);
-    push(contact, next - contact.impulse, a, b);
-    contact.impulse = next;
-}
-
-/// A visit on the way back, which does the same in reverse.
-template <class Number>
-[[gnu::always_inline]] inline void visitBack(BasicPgsContact<Number>& contact, PgsBody<Number>& a, PgsBody<Number>& b) {
-    visit(contact, a, b);
-}
-
-/// A visit of a contact that resists rolling: all of it at once where bounds allow that; else the impulse and what
-/// there is against turning, one after the other.
-template <class Number>
-class RollingVisit {
-    using Vector = Triple<Number>;
-
-  public:
-    [[gnu::always_inline]] RollingVisit(BasicRollingContact<Number>& contact, PgsBody<Number>& a, PgsBody<Number>& b)
-        : contact_(contact),
-          a_(a),
-          b_(b),
-          rigid_(rigidWrench(contact, relativeVelocity(contact, a, b) - contact.target * contact.normal, a.w - b.w)),
-          within_(isWithin(contact, rigid_)) {}
-
-    [[gnu::always_inline]] void push() {
-        const bool all = holdsInAll(within_);
-        const Vector impulse =
-            all ? rigid_.impulse
-                : where(within_, rigid_.impulse, projectedImpulse(contact_, relativeVelocity(contact_, a_, b_)));
-        const Vector next = where(isUsable(impulse), impulse, contact_.impulse);
-        cairn::push(contact_, next - contact_.impulse, a_, b_);
-        contact_.impulse = next;
-    }
-    [[gnu::always_inline]] void turn() {
-        const bool all = holdsInAll(within_);
-        const Vector turning =
-            all ? rigid_.turning : where(within_, rigid_.turning, turningSteps(contact_, a_.w - b_.w));
-        set(where(isUsable(turning), turning, contact_.turning));
-    }
-    /// Takes back what an impulse that came later does not allow.
-    [[gnu::always_inline]] void bound() {
-        if (!holdsInAll(within_)) set(where(within_, contact_.turning, boundedTurning(contact_)));
-    }
-
-  private:
-    [[gnu::always_inline]] void set(const Vector& turning) {
-        const Vector change = turning - contact_.turning;
-        a_.w += a_.inertia_inv * change;
-        b_.w -= b_.inertia_inv * change;
-        contact_.turning = turning;
-    }
-    [[gnu::always_inline]] auto isUsable(const Vector& u) const {
-        return (u.squaredNorm() < std::numeric_limits<double>::infinity()) & (contact_.normal_mass > 0);
-    }
-
-    BasicRollingContact<Number>& contact_;
-    PgsBody<Number>& a_;
-    PgsBody<Number>& b_;
-    BasicWrench<Number> rigid_;
-    decltype(Number{} > 0) within_;
-};
-
-template <class Number>
-[[gnu::always_inline]] inline void visit(BasicRollingContact<Number>& contact, PgsBody<Number>& a, PgsBody<Number>& b) {
-    RollingVisit<Number> visit(contact, a, b);
-    visit.push();
-    visit.turn();
-}
-template <class Number>
-[[gnu::always_inline]] inline void visitBack(BasicRollingContact<Number>& contact, PgsBody<Number>& a,
-                                             PgsBody<Number>& b) {
-    RollingVisit<Number> visit(contact, a, b);
-    visit.turn();
-    visit.push();
-    visit.bound();
 }
 
 /// What a difference of impulses changes.

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "math/arrays.h"
+#include "resolution/contact_visit.h"
 #include "resolution/fill_contact.h"
 #include "resolution/release_sliding.h"
 
@@ -108,7 +109,7 @@ void BasicLaneSweeper<Wide>::sweepForth(const PgsBatch& pgs) {
         visitGroups<Way::forth>(
             set, pgs,
             [](std::span<Wide> contacts, PgsBody<Lanes> & a, PgsBody<Lanes> & b) __attribute__((always_inline)) {
-                for (Wide& contact : contacts) visit(contact, a, b);
+                for (Wide& contact : contacts) visit(contact, FreePair<Lanes>{a, b});
             });
     }
 }
@@ -119,7 +120,7 @@ void BasicLaneSweeper<Wide>::sweepBack(const PgsBatch& pgs) {
         visitGroups<Way::back>(
             set, pgs,
             [](std::span<Wide> contacts, PgsBody<Lanes> & a, PgsBody<Lanes> & b) __attribute__((always_inline)) {
-                for (std::size_t i = contacts.size(); i-- > 0;) visitBack(contacts[i], a, b);
+                for (std::size_t i = contacts.size(); i-- > 0;) visitBack(contacts[i], FreePair<Lanes>{a, b});
             });
     }
 }

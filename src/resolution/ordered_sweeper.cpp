@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/arrays.h"
+#include "resolution/contact_visit.h"
 #include "resolution/fill_contact.h"
 #include "resolution/release_sliding.h"
 
@@ -12,7 +13,7 @@ namespace cairn {
 namespace {
 
 constexpr auto visit_contact = [](BasicPgsContact<double>& contact, PgsBody<double>& a, PgsBody<double>& b) {
-    visit(contact, a, b);
+    visit(contact, FreePair<double>{a, b});
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "resolution/contact_visit.h"
 #include "resolution/lane_contact.h"
 
 namespace cairn {
@@ -98,7 +99,7 @@ void Relay::visitOne(Lane& lane, std::size_t visits) {
         const ContactEnds& ends = lane.ends[lane.next];
         PgsBody<double> a = read(lane.bodies[ends.a]);
         PgsBody<double> b = read(lane.bodies[ends.b]);
-        visit(lane.contacts[lane.next], a, b);
+        visit(lane.contacts[lane.next], FreePair<double>{a, b});
         write(a, lane.bodies[ends.a]);
         write(b, lane.bodies[ends.b]);
     }
@@ -123,7 +124,7 @@ void Relay::visitAll(std::size_t visits) {
             BasicPgsContact<Lanes> contact = loadContacts(contacts);
             PgsBody<Lanes> a = loadBodies(of_a);
             PgsBody<Lanes> b = loadBodies(of_b);
-            visit(contact, a, b);
+            visit(contact, FreePair<Lanes>{a, b});
             storeImpulse(contact, contacts);
             const auto all = [](std::size_t) __attribute__((always_inline)) {
                 return true;
