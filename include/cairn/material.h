@@ -17,7 +17,8 @@ struct PairProperties {
     double restitution = 0.25;      ///< coefficient of restitution, 0 to 1
     double static_friction = 0.2;   ///< Coulomb's µs, ≥ 0
     double kinetic_friction = 0.2;  ///< Coulomb's µk, 0 to µs
-    /// Greatest torque against rolling over the normal force [m], ≥ 0; 0 = rolls freely, as in the thesis.
+    /// Greatest torque against rolling over the normal force [m], ≥ 0; 0 = rolls freely, as in the thesis. Bodies that
+    /// touch in an area whose points are spread by as much resist by where they press instead.
     double rolling_friction = 0;
     double spinning_friction = 0;  ///< likewise for the torque about the normal [m], ≥ 0
 };

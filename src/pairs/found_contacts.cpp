@@ -3,12 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "math/arrays.h"
 
 namespace cairn {
 
 namespace {
+
+/// What resists rolling or spinning shifts the force between two bodies by so much at most, to the side or, along
+/// it, as friction does with this lever. An area that is wide enough does that by where it presses.
+double unlessPatch(const FoundContact& found, double shift, double friction) {
+    return shift * shift <= friction * friction * found.squared_patch ? 0 : shift;
+}
 
 Contact contactOf(const BodyStorage& bodies, const MaterialTable& materials, const FoundContact& found) {
     const PairProperties properties = materials.pair(bodies.material[found.a], bodies.material[found.b]);
@@ -23,8 +30,8 @@ Contact contactOf(const BodyStorage& bodies, const MaterialTable& materials, con
             .slide = found.slide,
             .static_friction = properties.static_friction,
             .kinetic_friction = properties.kinetic_friction,
-            .rolling_friction = properties.rolling_friction,
-            .spinning_friction = properties.spinning_friction,
+            .rolling_friction = unlessPatch(found, properties.rolling_friction, 1),
+            .spinning_friction = unlessPatch(found, properties.spinning_friction, properties.kinetic_friction),
             .last_impulse = found.last_impulse,
             .reference_impulse = found.reference_impulse,
             .earlier_impulse = found.earlier_impulse,
@@ -44,6 +51,29 @@ void forEachRun(std::span<const FoundContacts> parts, const Use& use) {
 }
 
 }  // namespace
+
+double squaredPatchOf(std::span<const FoundContact> contacts) {
+    if (contacts.size() < 3) return 0;
+    const auto touches = [](const FoundContact& c) { return c.distance <= c.allowed_overlap; };
+    Vec3 sum = Vec3::Zero();
+    double count = 0;
+    for (const FoundContact& contact : contacts) {
+        if (!touches(contact)) continue;
+        sum += contact.point;
+        ++count;
+    }
+    if (count < 3) return 0;
+    Mat3 spread = Mat3::Zero();
+    for (const FoundContact& contact : contacts) {
+        if (!touches(contact)) continue;
+        const Vec3 r = contact.point - sum / count;
+        spread += r * r.transpose() / count;
+    }
+    // Of the three eigenvalues that across the area is nearly none, and those along it follow from two invariants.
+    const double mean = 0.5 * spread.trace();
+    const double product = 0.5 * (spread.trace() * spread.trace() - (spread * spread).trace());
+    return mean - std::sqrt(std::max(0.0, mean * mean - product));
+}
 
 void requireContacts(std::size_t count) {
     if (count <= most_contacts) return;

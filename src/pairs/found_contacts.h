@@ -29,11 +29,16 @@ struct FoundContact {
     double allowed_overlap = 0;             ///< Contact::allowed_overlap
     double allowed_closing = 0;             ///< Contact::allowed_closing
     Vec3 slide = Vec3::Zero();              ///< Contact::slide
+    double squared_patch = 0;               ///< of its pair, as of squaredPatchOf()
     Vec3 last_impulse = Vec3::Zero();       ///< Contact::last_impulse
     Vec3 reference_impulse = Vec3::Zero();  ///< Contact::reference_impulse
     Vec3 earlier_impulse = Vec3::Zero();    ///< Contact::earlier_impulse
     Vec3 earlier_angular_impulse = Vec3::Zero();
 };
+
+/// How wide, halved and squared, the area is in which the bodies of some contacts touch, where it is narrowest [m²]:
+/// the least spread of its points about their middle, of which four corners have half a side. 0 for a point or a line.
+double squaredPatchOf(std::span<const FoundContact> contacts);
 
 /// What one thread found, in the order of the pairs.
 struct FoundContacts {

@@ -377,7 +377,10 @@ void PairTable::detectPair(const PairsInput& input, std::span<const Contact> las
         const auto before = pair.contactsIn(last);
         const std::size_t begin = part.found.size();
         collidePair(input.bodies, pair, range_, {input.bodies, range_, pair, ahead_}, manifold, part.found);
-        inheritImpulses(input.bodies, before, std::span(part.found).subspan(begin), part.left);
+        const auto found = std::span(part.found).subspan(begin);
+        const double patch = squaredPatchOf(found);
+        for (FoundContact& contact : found) contact.squared_patch = patch;
+        inheritImpulses(input.bodies, before, found, part.left);
         const bool went_back = state == PairState::went_back;
         pair.ahead = keepAhead(input.bodies, range_, part.left, went_back, part.found) || ahead;
         part.deep =

@@ -43,6 +43,27 @@ TEST(AcceleratedSweeps, HoldAnAwakeTowerOfTenWithinAMillimetre) {
     }
 }
 
+TEST(AcceleratedSweeps, HoldATowerThatResistsRollingAsAnyOther) {
+    const Scene scene = builtInScene("tower:20");
+    Settings settings = accelerated(scene);
+    settings.sleep.sleeping = false;
+    SceneRun freely(scene, settings);
+    SceneRun resisting(scene, settings);
+    PairProperties pair;
+    pair.static_friction = pair.kinetic_friction = 0.5;
+    freely.world().setDefaultPairProperties(pair);
+    pair.rolling_friction = pair.spinning_friction = 0.005;
+    resisting.world().setDefaultPairProperties(pair);
+    for (int i = 0; i < 2 * 240; ++i) {
+        freely.step();
+        resisting.step();
+    }
+    EXPECT_LT(freely.world().kineticEnergy(), 1e-9);
+    for (const BodyId id : freely.ids()) {
+        ASSERT_EQ(freely.world().pose(id).position, resisting.world().pose(id).position) << id.index;
+    }
+}
+
 TEST(AcceleratedSweeps, AreTheSameOnAnyNumberOfThreads) {
     const Scene scene = builtInScene("cage384");
     Settings settings = accelerated(scene);

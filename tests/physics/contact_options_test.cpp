@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "cairn/world.h"
 
@@ -131,6 +132,18 @@ TEST(RollingFriction, HoldsAtTheWheelsOfACart) {
     // µr·g/r, less what the wheels' inertia gives back: (M + 4m(1 + 2/5))·a = µr·(M + 4m)·g/r.
     const double deceleration = 0.1 * g * 10.4 / 10.56;
     EXPECT_NEAR(world.linearVelocity(cart).x(), 1 - deceleration * world.time(), 1e-4);
+}
+
+TEST(RollingFriction, HoldsAtACylinderOnItsSide) {
+    BodyDescription rolling = ball(0.1, Vec3(0, 0, 0.1));
+    rolling.shape = Cylinder{.radius = 0.1, .length = 0.3};
+    rolling.pose.orientation = Quat(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()));
+    rolling.linear_velocity = Vec3(1, 0, 0);
+    rolling.angular_velocity = Vec3(0, 10, 0);
+    OnGround ground(accurate(ResolutionKind::accelerated_sweeps), rolls_hard, rolling);
+    ground.run(1);
+    const double deceleration = 2.0 / 3 * 0.01 / 0.1 * g;
+    EXPECT_NEAR(ground.world.linearVelocity(ground.id).x(), 1 - deceleration * ground.world.time(), 1e-3);
 }
 
 TEST(TouchingRestitution, ReachesTheHeightsOfTenBouncesAtAnyTimeStep) {
