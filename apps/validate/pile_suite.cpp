@@ -136,8 +136,8 @@ std::vector<Pile> quickPiles() {
     std::vector<Pile> piles = pileSuite();
     // Without friction few fall asleep, so such piles take all of their time: a deep one for minutes.
     const auto isLong = [](const Pile& p) { return p.friction == 0 && p.depth != 3; };
-    // A large one that rolls out alone on the floor takes 1.5·v·r/(0.01·d·|g|), longer than a pile may: chance.
-    const auto rollsOut = [](const Pile& p) { return p.isRound() && p.graded && p.depth == 3; };
+    // One that rolls out alone on the floor takes 1.5·v·r/(0.01·d·|g|), longer than a pile may: chance.
+    const auto rollsOut = [](const Pile& p) { return p.isRound() && p.depth == 3 && (p.graded || p.friction > 0); };
     std::erase_if(piles, [&](const Pile& p) { return p.count > numbers.front() || isLong(p) || rollsOut(p); });
     piles.resize(std::min<std::size_t>(piles.size(), 24));
     return piles;

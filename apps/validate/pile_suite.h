@@ -16,7 +16,7 @@ namespace cairn::validation {
 std::vector<Pile> pileSuite();
 
 /// The first 24 of the small ones, for the tests and for a first look: frictionless only where they are three deep, and
-/// none three deep of round shapes of 1 : 20.
+/// of round shapes three deep only frictionless ones of about one size.
 std::vector<Pile> quickPiles();
 
 /// Every n-th pile, beginning with the i-th, so that machines can share the work. @param part from 1 to parts
