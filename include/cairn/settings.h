@@ -70,7 +70,8 @@ struct ResolutionSettings {
     RestitutionSpeed restitution_speed = RestitutionSpeed::closing;  ///< the speed that it is about
     Impacts impacts = Impacts::of_resolution;                        ///< in chains of touching bodies
     /// Most visits: resolutions as a multiple of the batch's contacts (impulse_queue, arbitrary_order; a part is
-    /// rounded up), or sweeps over a batch (sweep, and accelerated_sweeps, forth and back). 0 = no limit.
+    /// rounded up), or sweeps over a batch (sweep; accelerated_sweeps forth and back, three times as many where it
+    /// rests). 0 = no limit.
     double iterations = 100;
     /// accelerated_sweeps sweeps a batch until what all further sweeps would change is estimated to be no more than
     /// this part of how its contacts move, 0 to 1: exactly where it lies still. Less is left where bodies are in each

@@ -1324,8 +1324,8 @@ class ResolutionSettings(_Record):
         """impacts in touching chains: as the resolution does, in sequence or all at once"""
     @property
     def iterations(self) -> float:
-        """most resolutions per contact of 'impulse_queue' and 'arbitrary_order', or sweeps over a batch of the others; 0
-        = no limit"""
+        """most resolutions per contact of 'impulse_queue' and 'arbitrary_order', or sweeps over a batch of the others
+        (where it rests, three times as many of 'accelerated_sweeps'); 0 = no limit"""
     @property
     def tolerance(self) -> float:
         """'accelerated_sweeps' goes on until about so much is left to change, as a part of how a batch's contacts

@@ -34,7 +34,7 @@ struct BodyState {
 
     /// Sum of the global accelerations, for the correction [m/s², W].
     Vec3 acceleration = Vec3::Zero();
-    /// The length of a time step, for the resolution [s].
+    /// The length of a time step, for the correction and the resolution [s].
     double time_step = 0;
     /// What gravity gives in this time step to bodies at rest, and to those with a load [m/s, W].
     Vec3 damped_fall = Vec3::Zero(), whole_fall = Vec3::Zero();

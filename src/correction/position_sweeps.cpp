@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "batches/batch_motion.h"
 #include "math/rotation.h"
 
 namespace cairn {
@@ -32,6 +33,17 @@ constexpr double most_turned = 3;
 /// come apart only through each other.
 constexpr double most_grown = 10;
 
+/// What the motion of a batch does not pay for may lift each body by this part of how far it falls from rest in a time
+/// step, …
+constexpr double free_part = 0.01;
+
+/// … times the eighth power of how much deeper it is than deep_multiple, as only what a scene or a user begins with is.
+double freePartAt(double depth) {
+    const double deeper = std::max(1.0, depth / deep_multiple);
+    const double squared = deeper * deeper;
+    return free_part * (squared * squared) * (squared * squared);
+}
+
 /// Whether an impulse may change the velocity of a body or finds a fixed one: not of one that is held still.
 bool mayReceive(const BodyState& bodies, BodyIndex i) {
     return bodies.isFixed(i) || bodies.asleep[i] == 0;
@@ -57,26 +69,20 @@ CorrectionCounts PositionSweeps::correct(const BatchView& batch, const ContactsO
 CorrectionCounts PositionSweeps::settle(const BatchView& batch, std::span<Contact> contacts, const BodyState& bodies,
                                         const PosesBefore& before) {
     CorrectionCounts counts;
-    const auto isDeep = [&](std::uint32_t index) { return contacts[index].isTooDeep(); };
     counts.displaced = findMoved(batch, bodies, before);
     const auto fixed = static_cast<std::uint32_t>(batch.bodies.size());
     const auto shareOf = [&](BodyIndex i) -> Share& { return shares_[bodies.isFixed(i) ? fixed : bodies.place[i]]; };
+    if (counts.displaced > 0) {
+        const double part = grantedPart(batch, contacts, bodies, before);
+        if (part < 1) takeBack(part, batch, bodies, before);
+    }
     for (const std::uint32_t index : batch.contacts) {
         Contact& contact = contacts[index];
         const Share& a = shareOf(contact.a);
         const Share& b = shareOf(contact.b);
-        const bool deep = isDeep(index);
+        const bool deep = contact.isTooDeep();
         if ((a.moved || b.moved) && std::isfinite(contact.distance)) moveContact(contact, a, b, before);
         if (deep) ++(contact.isTooDeep() ? counts.uncorrected : counts.corrected);
-    }
-    if (counts.displaced == 0) return counts;
-    // What the lifted bodies owe is taken from the motion along the normals of their contacts, in ascending order.
-    for (const std::uint32_t index : batch.contacts) {
-        const Contact& contact = contacts[index];
-        Share& a = shareOf(contact.a);
-        Share& b = shareOf(contact.b);
-        if (!(a.debt + b.debt > 0) || !mayReceive(bodies, contact.a) || !mayReceive(bodies, contact.b)) continue;
-        payAt(contact, a, b, bodies);
     }
     return counts;
 }
@@ -200,11 +206,60 @@ std::int64_t PositionSweeps::findMoved(const BatchView& batch, const BodyState& 
         share.moved = !share.displacement.isZero(0);
         if (!share.moved) continue;
         bodies.wake(body, WakeReason::displaced);
-        const Vec3 acceleration = bodies.gravityFactor(body) * bodies.acceleration;
-        share.debt = std::max(0.0, -acceleration.dot(share.displacement) / bodies.mass_inv[body]);
+        const Vec3 weight = bodies.gravityFactor(body) * bodies.acceleration / bodies.mass_inv[body];
+        share.lift = std::max(0.0, -weight.dot(share.displacement));
+        share.debt = share.lift;
         ++moved;
     }
     return moved;
+}
+
+/// Takes what the lifted bodies owe from the motion along the normals of their contacts, in ascending order. @return
+/// the part of the way of all bodies that is paid for or free: one for all of them, so that they keep off each other
+double PositionSweeps::grantedPart(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies,
+                                   const PosesBefore& before) {
+    const auto fixed = static_cast<std::uint32_t>(batch.bodies.size());
+    const auto shareOf = [&](BodyIndex i) -> Share& { return shares_[bodies.isFixed(i) ? fixed : bodies.place[i]]; };
+    for (const std::uint32_t index : batch.contacts) {
+        const Contact& contact = contacts[index];
+        Share& a = shareOf(contact.a);
+        Share& b = shareOf(contact.b);
+        if (std::isfinite(contact.distance)) {
+            const double depth = -contact.distance / contact.allowed_overlap;
+            a.depth = std::max(a.depth, depth);
+            b.depth = std::max(b.depth, depth);
+        }
+        if (!(a.debt + b.debt > 0) || !mayReceive(bodies, contact.a) || !mayReceive(bodies, contact.b)) continue;
+        payAt(contact, a, b, bodies, before);
+    }
+    // Supports that move lift what they carry.
+    if (!hasStillSupports(batch, contacts, bodies)) return 1;
+    double lift = 0, unpaid = 0, free = 0;
+    for (std::size_t i = 0; i < batch.bodies.size(); ++i) {
+        const Share& share = shares_[i];
+        if (!(share.lift > 0)) continue;
+        const BodyIndex body = batch.bodies[i];
+        const double fall = (bodies.gravityFactor(body) * bodies.time_step * bodies.acceleration).squaredNorm() / 2;
+        lift += share.lift;
+        unpaid += share.debt;
+        free += freePartAt(share.depth) * fall / bodies.mass_inv[body];
+    }
+    return unpaid > free ? (lift - unpaid + free) / lift : 1;
+}
+
+/// Lets all bodies have gone only a part of their way.
+void PositionSweeps::takeBack(double part, const BatchView& batch, const BodyState& bodies, const PosesBefore& before) {
+    for (std::size_t i = 0; i < batch.bodies.size(); ++i) {
+        Share& share = shares_[i];
+        if (!share.moved) continue;
+        const BodyIndex body = batch.bodies[i];
+        share.displacement *= part;
+        bodies.position[body] = before.position[body] + share.displacement;
+        if (share.turn.isZero(0)) continue;
+        share.turn *= part;
+        bodies.orientation[body] = (fromRotationVector(share.turn) * before.orientation[body]).normalized();
+        bodies.inertiaInv_W[body] = toWorldInertia(bodies.inertiaInv_B[body], bodies.orientation[body]);
+    }
 }
 
 /// Brings a contact to where its bodies are now.
@@ -222,10 +277,11 @@ void PositionSweeps::moveContact(Contact& contact, const Share& a, const Share& 
 
 /// Lets one contact give what it has of what its bodies owe. With λ on A and −λ on B along n, k = nᵀ·K·n and the normal
 /// velocity u, the kinetic energy changes by λ·u + ½·k·λ²: at most by −u²/(2·k), at which u is 0.
-void PositionSweeps::payAt(const Contact& contact, Share& a, Share& b, const BodyState& bodies) {
+void PositionSweeps::payAt(const Contact& contact, Share& a, Share& b, const BodyState& bodies,
+                           const PosesBefore& before) {
     const Vec3& n = contact.normal;
-    const Vec3 lever_a = (contact.pointOn(contact.a) - bodies.position[contact.a]).cross(n);
-    const Vec3 lever_b = (contact.pointOn(contact.b) - bodies.position[contact.b]).cross(n);
+    const Vec3 lever_a = (contact.pointOn(contact.a) - before.position[contact.a]).cross(n);
+    const Vec3 lever_b = (contact.pointOn(contact.b) - before.position[contact.b]).cross(n);
     const Vec3 turn_a = bodies.inertiaInv_W[contact.a] * lever_a;
     const Vec3 turn_b = bodies.inertiaInv_W[contact.b] * lever_b;
     const double inverse_a = bodies.mass_inv[contact.a];

@@ -24,7 +24,10 @@ namespace cairn {
 /// What this lifts is paid for: the bodies that gained potential energy are owed by the motion along the normals of
 /// their contacts. Each contact in turn gives what it has and they still owe, by an equal and opposite impulse that
 /// slows closing or separating bodies down and never reverses them. Momentum is kept, and a pile that is pushed apart
-/// has lost as much motion as it gained height, as far as it had any.
+/// has lost as much motion as it gained height. Where there is not enough, as in jams, all bodies of the batch go back
+/// on their way until what is not paid for lifts them by no more than a small part of how far they fall in a time step:
+/// else the correction would lift what gravity brings down again for ever. What is deeper than steps let bodies get, as
+/// a scene or a user may begin with, comes apart faster the deeper it is, and what supports that move carry goes along.
 class PositionSweeps final : public Correction {
   public:
     /// Moves the bodies only.
@@ -66,7 +69,9 @@ class PositionSweeps final : public Correction {
         Vec3 displacement = Vec3::Zero();  ///< [m, W]
         Vec3 turn = Vec3::Zero();          ///< rotation vector [W]
         double most_turn = 0;              ///< [rad]
-        double debt = 0;                   ///< potential energy gained and not paid for yet [J], ≥ 0
+        double lift = 0;                   ///< potential energy gained [J], ≥ 0
+        double debt = 0;                   ///< of that, not paid for yet [J]
+        double depth = 0;                  ///< of its deepest contact, as a multiple of what is allowed
         bool moved = false;
 
         void turnBy(const Vec3& angle) {
@@ -84,8 +89,11 @@ class PositionSweeps final : public Correction {
     double distanceOf(const Overlap& overlap) const;
     void displace(const BatchView& batch, const BodyState& bodies);
     std::int64_t findMoved(const BatchView& batch, const BodyState& bodies, const PosesBefore& before);
+    double grantedPart(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies,
+                       const PosesBefore& before);
+    void takeBack(double part, const BatchView& batch, const BodyState& bodies, const PosesBefore& before);
     void moveContact(Contact& contact, const Share& a, const Share& b, const PosesBefore& before) const;
-    void payAt(const Contact& contact, Share& a, Share& b, const BodyState& bodies);
+    void payAt(const Contact& contact, Share& a, Share& b, const BodyState& bodies, const PosesBefore& before);
 
     bool stuck_ = false;  ///< the batch began deep in each other
     std::vector<Overlap> overlaps_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "batches/batch_motion.h"
@@ -29,6 +30,10 @@ constexpr int depth_power = 4;
 
 /// A sweep that changes no contact's velocity by more than this part of the resolution threshold is the last one.
 constexpr double steady_part = 0.01;
+
+/// What rests is swept so many times as often at most: it needs the same impulses in the next step, and a jam whose
+/// contacts do not carry it yet falls a little in every step. What moves needs others then.
+constexpr std::int64_t resting_sweeps = 3;
 
 /// Most pairs of bodies in touch per body in stacks, chains and arches.
 constexpr double chain_pairs = 1.5;
@@ -107,8 +112,8 @@ BatchKind kindOf(const BatchView& batch, std::span<const Contact> contacts, cons
     kind.motion = std::sqrt(sums.scale);
     kind.depth = count > 0 ? std::sqrt(sums.depth / count) : 0;
     kind.safe_way = safe_multiple * least_allowed;
-    const bool rests = sums.motion <= settings.restitution_threshold * settings.restitution_threshold * sums.mass;
-    kind.may_step_directly = rests && !kind.framed && kind.rolling == 0 && isChain(batch, contacts, bodies);
+    kind.rests = sums.motion <= settings.restitution_threshold * settings.restitution_threshold * sums.mass;
+    kind.may_step_directly = kind.rests && !kind.framed && kind.rolling == 0 && isChain(batch, contacts, bodies);
     const std::size_t size = kind.may_step_directly ? 0 : batch.contacts.size();
     kind.order = size >= coloured_contacts ? SweepOrder::by_colours
                  : size >= wide_contacts   ? SweepOrder::in_order
@@ -120,7 +125,7 @@ SweepPlan planOf(const BatchKind& kind, const BodyState& bodies, const Resolutio
     const double deeper = std::max(1.0, kind.depth / usual_depth);
     const bool stricter = kind.pulled && settings.pulled_tolerance < settings.tolerance;
     const double part = stricter ? settings.pulled_tolerance / settings.tolerance : 1;
-    return {.limit = sweepLimit(settings),
+    return {.limit = sweepLimit(settings) * (kind.rests ? resting_sweeps : 1),
             .steady_speed = part * steady_part * settings.resolution_threshold,
             .tolerance = part * settings.tolerance / std::pow(deeper, depth_power),
             .safe_speed = kind.safe_way / bodies.time_step,

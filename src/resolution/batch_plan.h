@@ -9,6 +9,7 @@ namespace cairn {
 struct BatchKind {
     bool framed = false;             ///< it has joints, which work with frames of the contacts
     bool two_frictions = false;      ///< some contact slides with another friction than it sticks with
+    bool rests = false;              ///< its contacts hardly move: a pile that stands, or a jam
     bool may_step_directly = false;  ///< direct steps are taken where sweeps are not enough
     SweepOrder order = SweepOrder::one_by_one;
     bool pulled = false;      ///< forces of users, springs or joints act on some of its bodies

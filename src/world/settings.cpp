@@ -115,9 +115,11 @@ const std::vector<SettingField>& settingTable() {
             "restitution takes the closing speed with the step's forces (the thesis) or that at the touching"),
         choice<&S::resolution, &R::impacts, impacts_names>(
             "impacts", "resolution", "impacts in touching chains: as the resolution does, in sequence or all at once"),
-        plain<&S::resolution, &R::iterations>("iterations", "resolution", "", 0, 1e6,
-                                              "most resolutions per contact of 'impulse_queue' and 'arbitrary_order', "
-                                              "or sweeps over a batch of the others; 0 = no limit"),
+        plain<&S::resolution, &R::iterations>(
+            "iterations", "resolution", "", 0, 1e6,
+            "most resolutions per contact of 'impulse_queue' and 'arbitrary_order', "
+            "or sweeps over a batch of the others (where it rests, three times as many of "
+            "'accelerated_sweeps'); 0 = no limit"),
         plain<&S::resolution, &R::tolerance>("tolerance", "resolution", "", 0, 1,
                                              "'accelerated_sweeps' goes on until about so much is left to change, as a "
                                              "part of how a batch's contacts move"),

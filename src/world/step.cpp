@@ -150,6 +150,8 @@ void correctBatches(WorldState& world) {
     if (world.settings.correction.correction != CorrectionKind::position_sweeps) return;
     if (std::ranges::find(data.deep, 1) == data.deep.end()) return;
     const bool moved = clampCorrection(world, rangeOf(world));
+    bodies.time_step = world.part.length;
+    bodies.supports_move = doSupportsMove(bodies);
     const PosesBefore before{world.bodies.detected_position, world.bodies.detected_orientation};
     data.schedule.forEach(world.executor, [&](std::uint32_t batch, int thread) {
         if (data.deep[batch] == 0) return;

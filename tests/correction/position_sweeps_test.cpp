@@ -18,6 +18,7 @@ namespace {
 struct SweepsScene : ContactScene {
     static constexpr double threshold = 0.01;
     static constexpr double gravity = 10;
+    double time_step = 1;            ///< so long that all that is lifted is free [s]
     std::function<void()> put_back;  ///< called before the correction settles
 
     SweepsScene() { settings.penetration_threshold = threshold; }
@@ -31,6 +32,7 @@ struct SweepsScene : ContactScene {
         std::iota(indices.begin(), indices.end(), 0U);
         BodyState all = state();
         all.acceleration = Vec3(0, 0, -gravity);
+        all.time_step = time_step;
         const auto position_before = position;
         const auto orientation_before = orientation;
         CorrectionCounts counts = sweeps.correct({bodies, indices}, {}, contacts, all, remaining_part);
@@ -187,6 +189,79 @@ TEST(PositionSweeps, PayWhatTheyLiftFromTheMotionAlongTheNormal) {
         EXPECT_EQ(scene.v[x].x(), 1) << "along the normal only";
         EXPECT_NEAR(scene.v[x].z(), std::copysign(std::sqrt(4 - 2 * SweepsScene::gravity * 0.015), speed), 1e-12);
     }
+}
+
+/// How far what the motion does not pay for may lift a body in a step [m].
+double freeLift(double time_step) {
+    return 0.01 * 0.5 * SweepsScene::gravity * time_step * time_step;
+}
+
+TEST(PositionSweeps, LiftByAPartOfAFallWhereNobodyPays) {
+    for (const double time_step : {1.0 / 240, 1.0 / 960}) {
+        SweepsScene scene;
+        scene.time_step = time_step;
+        const BodyIndex ground = scene.addFixed();
+        const BodyIndex x = scene.addBody();
+        const BodyIndex y = scene.addBody(Vec3(0, 0, 1));
+        scene.mass_inv[y] = 0.1;
+        scene.touch(x, ground, up, -0.012);
+        scene.touch(y, x, up, -0.01);
+        EXPECT_EQ(scene.run().uncorrected, 1);
+        const double lift_x = scene.position[x].z();
+        const double lift_y = scene.position[y].z() - 1;
+        EXPECT_NEAR((lift_x + 10 * lift_y) / (11 * freeLift(time_step)), 1, 1e-9) << "both owe for each other";
+        EXPECT_GT(lift_y, 0);
+        EXPECT_NEAR(scene.contacts[0].distance, -0.012 + lift_x, 1e-15);
+        EXPECT_NEAR(scene.contacts[1].distance, -0.01 + lift_y - lift_x, 1e-15);
+    }
+}
+
+TEST(PositionSweeps, LiftByWhatIsPaidForAndAPartOfAFall) {
+    SweepsScene scene;
+    scene.time_step = 1.0 / 240;
+    const BodyIndex ground = scene.addFixed();
+    const BodyIndex x = scene.addBody();
+    scene.v[x] = Vec3(0, 0, -0.1);
+    scene.touch(x, ground, up, -0.012);
+    scene.run();
+    EXPECT_NEAR(scene.position[x].z(), 0.1 * 0.1 / (2 * SweepsScene::gravity) + freeLift(scene.time_step), 1e-12);
+    EXPECT_EQ(scene.v[x], Vec3::Zero());
+}
+
+TEST(PositionSweeps, LiftFasterWhatIsDeeperThanStepsLetBodiesGet) {
+    for (const double depth : {1.3, 2.0, 2.6}) {
+        SweepsScene scene;
+        scene.time_step = 1.0 / 240;
+        const BodyIndex ground = scene.addFixed();
+        const BodyIndex x = scene.addBody();
+        scene.touch(x, ground, up, -depth * SweepsScene::threshold);
+        scene.run();
+        EXPECT_NEAR(scene.position[x].z() / (std::pow(depth / 1.3, 8) * freeLift(scene.time_step)), 1, 1e-9);
+    }
+}
+
+TEST(PositionSweeps, LiftWhatASupportThatMovesCarries) {
+    SweepsScene scene;
+    scene.time_step = 1.0 / 240;
+    const BodyIndex ground = scene.addFixed();
+    const BodyIndex x = scene.addBody();
+    scene.v[ground] = scene.v[x] = Vec3(0, 0, 0.5);
+    scene.touch(x, ground, up, -0.012);
+    scene.run();
+    EXPECT_NEAR(scene.position[x].z(), 0.006, 1e-12) << "half of it";
+    EXPECT_EQ(scene.v[x], Vec3(0, 0, 0.5));
+}
+
+TEST(PositionSweeps, NeverTurnWhomTheyOnlyPush) {
+    SweepsScene scene;
+    scene.time_step = 1.0 / 240;
+    const BodyIndex ground = scene.addFixed();
+    const BodyIndex x = scene.addBody();
+    scene.orientation[x].coeffs() *= 1 + 1e-15;
+    const Quat before = scene.orientation[x];
+    scene.touch(x, ground, up, -0.012);
+    scene.run();
+    EXPECT_EQ(scene.orientation[x].coeffs(), before.coeffs());
 }
 
 TEST(PositionSweeps, NeverReverseWhatHasLessThanItOwes) {

@@ -66,6 +66,15 @@ TEST(BatchPlan, WhatOthersDenyABodyIsNoMotion) {
     EXPECT_EQ(motion({0, 1, 0}), 0);
 }
 
+TEST(BatchPlan, WhatRestsIsSweptThreeTimesAsOften) {
+    test::Pile pile;
+    const BodyState bodies = pile.state();
+    ResolutionSettings settings;
+    settings.iterations = 20;
+    EXPECT_EQ(planOf({}, bodies, settings).limit, 20);
+    EXPECT_EQ(planOf({.rests = true}, bodies, settings).limit, 60);
+}
+
 TEST(BatchPlan, WhatForcesPullIsSolvedToItsOwnToleranceIfThatIsLess) {
     test::Pile pile;
     const BodyState bodies = pile.state();
