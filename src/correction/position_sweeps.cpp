@@ -70,16 +70,14 @@ CorrectionCounts PositionSweeps::settle(const BatchView& batch, std::span<Contac
                                         const PosesBefore& before) {
     CorrectionCounts counts;
     counts.displaced = findMoved(batch, bodies, before);
-    const auto fixed = static_cast<std::uint32_t>(batch.bodies.size());
-    const auto shareOf = [&](BodyIndex i) -> Share& { return shares_[bodies.isFixed(i) ? fixed : bodies.place[i]]; };
     if (counts.displaced > 0) {
         const double part = grantedPart(batch, contacts, bodies, before);
         if (part < 1) takeBack(part, batch, bodies, before);
     }
     for (const std::uint32_t index : batch.contacts) {
         Contact& contact = contacts[index];
-        const Share& a = shareOf(contact.a);
-        const Share& b = shareOf(contact.b);
+        const Share& a = shareOf(contact.a, bodies);
+        const Share& b = shareOf(contact.b, bodies);
         const bool deep = contact.isTooDeep();
         if ((a.moved || b.moved) && std::isfinite(contact.distance)) moveContact(contact, a, b, before);
         if (deep) ++(contact.isTooDeep() ? counts.uncorrected : counts.corrected);
@@ -218,12 +216,10 @@ std::int64_t PositionSweeps::findMoved(const BatchView& batch, const BodyState& 
 /// the part of the way of all bodies that is paid for or free: one for all of them, so that they keep off each other
 double PositionSweeps::grantedPart(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies,
                                    const PosesBefore& before) {
-    const auto fixed = static_cast<std::uint32_t>(batch.bodies.size());
-    const auto shareOf = [&](BodyIndex i) -> Share& { return shares_[bodies.isFixed(i) ? fixed : bodies.place[i]]; };
     for (const std::uint32_t index : batch.contacts) {
         const Contact& contact = contacts[index];
-        Share& a = shareOf(contact.a);
-        Share& b = shareOf(contact.b);
+        Share& a = shareOf(contact.a, bodies);
+        Share& b = shareOf(contact.b, bodies);
         if (std::isfinite(contact.distance)) {
             const double depth = -contact.distance / contact.allowed_overlap;
             a.depth = std::max(a.depth, depth);

@@ -27,7 +27,8 @@ namespace cairn {
 /// has lost as much motion as it gained height. Where there is not enough, as in jams, all bodies of the batch go back
 /// on their way until what is not paid for lifts them by no more than a small part of how far they fall in a time step:
 /// else the correction would lift what gravity brings down again for ever. What is deeper than steps let bodies get, as
-/// a scene or a user may begin with, comes apart faster the deeper it is, and what supports that move carry goes along.
+/// a scene or a user may begin with, comes apart faster the deeper it is (a stack slowly, from its top on), and what
+/// supports that move carry goes along.
 class PositionSweeps final : public Correction {
   public:
     /// Moves the bodies only.
@@ -81,6 +82,10 @@ class PositionSweeps final : public Correction {
         }
     };
 
+    /// What happens to a body of the batch at hand; fixed bodies share the last one.
+    Share& shareOf(BodyIndex i, const BodyState& bodies) {
+        return bodies.isFixed(i) ? shares_.back() : shares_[bodies.place[i]];
+    }
     void gather(const BatchView& batch, std::span<const Contact> contacts, const BodyState& bodies);
     bool isMoved(const Overlap& overlap) const { return shares_[overlap.a].moved || shares_[overlap.b].moved; }
     const Levers& leversOf(Overlap& overlap, std::span<const Contact> contacts, const BodyState& bodies);
